@@ -1,0 +1,34 @@
+// What every analysis is asked besides its question: how exact, how long, on how many
+// threads, whom to tell, when to stop; and what every answer tells of its cost.
+
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <stop_token>
+
+namespace sightline {
+
+/// Exact: filtered predicates that always give the sign of exact arithmetic.
+/// Double: the first floating-point stage alone, its sign taken as it is; it exists to
+/// measure what exactness costs and what it saves.
+enum class Precision { Exact, Double };
+
+/// The terms on which a question is asked.  All members have defaults: `Request{}` asks
+/// for the whole exact answer on all cores.
+struct Request {
+  Precision precision = Precision::Exact;
+  /// Number of threads; 0 means one per core.  The answer does not depend on it.
+  int threads = 0;
+  /// Seconds after which a partial answer is returned, marked incomplete.
+  double budget_seconds = std::numeric_limits<double>::infinity();
+  /// Called from time to time with the fraction done in [0, 1]; may be empty.  Calls are
+  /// serialised but may come from any thread.
+  std::function<void(double)> progress;
+  /// A stop that is requested ends the work soon, with a partial answer.
+  std::stop_token stop;
+};
+
+}  // namespace sightline

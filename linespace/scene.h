@@ -1,0 +1,148 @@
+// A scene: polygons with names, validated once and immutable from then on.
+//
+// Coordinates are the doubles that the file gave, never snapped or rounded.  On top of
+// the polygons stand the derived things that visibility is about: distinct points, convex
+// faces, maximal coplanar facets, exactly classified edges, corners, objects.
+// Neighbours: mesh_io.h reads files into a PolygonSoup; occlusion.h asks a scene what
+// blocks a line.
+
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace sightline {
+
+using Point = Eigen::Vector3d;
+
+/// The caller's input cannot be used; what() is one line that names the element.
+class InvalidInput : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Polygons as a file gives them: indices into vertices, faces in file order.
+struct PolygonSoup {
+  struct Group {
+    std::string name;
+    std::vector<int> faces;  ///< indices into `polygons`, ascending
+  };
+  std::vector<Point> vertices;
+  std::vector<std::vector<int>> polygons;  ///< indices into `vertices`, from 0
+  std::vector<Group> groups;               ///< empty when the file names none
+  std::string source;                      ///< file name, for messages
+};
+
+/// Seen from outside: Convex is a ridge, Reflex a valley, Flat neither, Boundary has one
+/// face, NonManifold three or more, or two of inconsistent orientation.
+enum class EdgeKind : std::uint8_t { Convex, Reflex, Flat, Boundary, NonManifold };
+
+/// A convex polygon with its front on the side where it is counter-clockwise.  A polygon
+/// of the file that is not convex becomes several faces of one `source`.
+struct Face {
+  int first_corner;  ///< position of its points in Scene::face_points
+  int corner_count;
+  int source;  ///< number of the polygon in the file
+  int facet;
+  int object;
+};
+
+/// A maximal connected region of one object's faces across flat edges.
+struct Facet {
+  int object;
+  std::vector<int> faces;
+  /// True when all its points lie in one plane exactly.
+  bool planar;
+};
+
+/// A maximal straight edge that is not flat, between the same facets all along.
+struct Edge {
+  std::array<int, 2> points;  ///< end points, the smaller id first
+  EdgeKind kind;
+  int object;
+  /// The faces at the edge (one for Boundary, two for Convex and Reflex, any number for
+  /// NonManifold), and whether the edge runs from points[0] to points[1] in the face's
+  /// own counter-clockwise order.  Of a chain of collinear mesh edges merged into one, a
+  /// face of each adjacent facet.
+  struct Side {
+    int face;
+    bool forward;
+  };
+  std::vector<Side> sides;
+};
+
+/// What an object is made of: a named group, or a connected component after welding.
+struct Object {
+  std::string name;
+  std::vector<int> faces;
+  /// Every edge is used equally often in both directions.
+  bool closed;
+  /// Closed, bounded on the inside (positive volume), all its edges convex or flat, and
+  /// every point on or behind every face's plane.
+  bool convex;
+};
+
+struct Defect {
+  std::string kind;  ///< "zero area", "repeated vertex", "non-planar polygon", ...
+  std::string message;
+  std::vector<int> faces;     ///< polygon numbers in the file, from 0
+  std::vector<int> vertices;  ///< vertex numbers in the file, from 0
+};
+
+struct SceneOptions {
+  /// Two faces whose planes differ by at most this angle (radians) share a flat edge.
+  double flatness = 0;
+};
+
+/// Counts of the mesh's own edges, collinear ones not merged, by kind.
+struct MeshEdgeCounts {
+  int convex = 0, reflex = 0, flat = 0, boundary = 0, nonmanifold = 0;
+};
+
+/// Immutable; safe to share between threads.
+class Scene {
+ public:
+  /// Validates and derives everything.  Throws InvalidInput for what no analysis can use:
+  /// non-finite coordinates, a coordinate other than 0 whose magnitude is outside
+  /// [2^-140, 2^140], indices out of range, no faces.  Other defects are kept in
+  /// defects(); faces of zero area block nothing and are left out of faces().
+  explicit Scene(PolygonSoup soup, const SceneOptions& options = {});
+
+  /// Distinct points used by faces, in order of first use: point ids index this.
+  [[nodiscard]] std::span<const Point> points() const { return points_; }
+  [[nodiscard]] const Point& point(int id) const { return points_[id]; }
+
+  [[nodiscard]] std::span<const Face> faces() const { return faces_; }
+  /// Point ids of face f, counter-clockwise seen from its front.
+  [[nodiscard]] std::span<const int> face_points(int f) const {
+    return {corners_.data() + faces_[f].first_corner,
+            static_cast<std::size_t>(faces_[f].corner_count)};
+  }
+  [[nodiscard]] std::span<const Facet> facets() const { return facets_; }
+  /// The generators: maximal straight edges, flat ones left out.
+  [[nodiscard]] std::span<const Edge> edges() const { return edges_; }
+  /// Point ids at which some edge() ends, ascending: the vertices that generate events.
+  [[nodiscard]] std::span<const int> corners() const { return corner_points_; }
+  /// Edge ids that end at point p.
+  [[nodiscard]] std::span<const int> edges_at(int p) const;
+  /// Face ids that have point p as a corner.
+  [[nodiscard]] std::span<const int> faces_at(int p) const;
+  [[nodiscard]] std::span<const Object> objects() const { return objects_; }
+  /// Index of the object of that name or of `#i-j`; throws InvalidInput otherwise.
+  [[nodiscard]] int object_named(const std::string& name) const;
+
+  [[nodiscard]] const PolygonSoup& soup() const { return soup_; }
+  [[nodiscard]] std::span<const Defect> defects() const { return defects_; }
+  [[nodiscard]] const MeshEdgeCounts& mesh_edges() const { return mesh_edges_; }
+  /// Number of closed, consistently oriented components.
+  [[nodiscard]] int solids() const { return solids_; }
+  /// Corner of the bounding box with the smallest, the largest coordinates.
+  [[nodiscard]] const std::array<Point, 2>& bounds() const { return bounds_; }
+};
+
+}  // namespace sightline

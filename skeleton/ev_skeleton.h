@@ -1,0 +1,96 @@
+// The EV part of the visibility skeleton: every line set through a vertex and an edge
+// that sees it, exactly, with the extremal stabbing lines at its ends.
+//
+// Solid mode as the project's contract defines it.  A generator is a point id or an edge
+// id of the scene; contacts are derived from geometry, so that touching solids count as
+// their union.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linespace/occlusion.h"
+#include "linespace/predicates.h"
+#include "linespace/request.h"
+#include "linespace/scene.h"
+
+namespace sightline {
+
+/// What an extremal stabbing line is held by, vertex first in the name; Degenerate lines
+/// have more contacts than four degrees of freedom need; Pierce is where an edge enters a
+/// face (overlapping solids only).
+enum class NodeKind : std::uint8_t { VV, VEE, EVE, FvE, Pierce, Degenerate };
+
+enum class GeneratorKind : std::uint8_t { Vertex, Edge, Face };
+
+/// A feature of the scene that a line touches: a point id, an edge id or a facet id.
+struct Generator {
+  GeneratorKind kind;
+  std::int32_t id;
+  friend auto operator<=>(const Generator&, const Generator&) = default;
+};
+
+/// An extremal stabbing line.
+struct SkeletonNode {
+  NodeKind kind;
+  /// Two contacts are on one object (counted under "..._self").
+  bool self = false;
+  /// The last contact is a corner at which the line enters its solid: the line ends there
+  /// rather than grazes (counted under "end").
+  bool end = false;
+  /// Generators in order along the line: `count` of them from Skeleton::generators().
+  std::uint32_t first_generator = 0;
+  std::uint16_t generator_count = 0;
+  /// The outermost contacts, rounded to double.
+  std::array<Point, 2> segment;
+};
+
+/// A maximal open interval of an edge that one vertex sees and supports.
+struct SkeletonArc {
+  std::int32_t vertex;  ///< point id
+  std::int32_t edge;    ///< edge id
+  bool self = false;    ///< vertex and edge are of one object
+  /// Parameters along the edge (0 at points[0], 1 at points[1]), rounded to double, of the
+  /// ends of the open interval, and the nodes there.
+  std::array<double, 2> range;
+  std::array<std::uint32_t, 2> nodes;
+};
+
+/// Which part of the skeleton is wanted.
+struct SkeletonRequest : Request {
+  /// Only arcs whose vertex is on one of these objects; empty means all.
+  std::vector<int> vertex_objects;
+  /// Only arcs whose edge is on one of these objects; empty means all.
+  std::vector<int> edge_objects;
+  /// Only generators inside this box (corner of smallest, of largest coordinates).
+  std::optional<std::array<Point, 2>> region;
+};
+
+/// Immutable; safe to share between threads.  Deterministic: arcs are ordered by vertex,
+/// edge and parameter, whatever the number of threads.
+struct Skeleton {
+  std::vector<SkeletonNode> nodes;
+  std::vector<SkeletonArc> arcs;
+  std::vector<Generator> generator_pool;
+  bool complete = true;
+  std::size_t vertices_done = 0, vertices_asked = 0;
+  StageCounts predicates;
+
+  [[nodiscard]] std::span<const Generator> generators(const SkeletonNode& node) const {
+    return {generator_pool.data() + node.first_generator, node.generator_count};
+  }
+};
+
+/// Builds the EV arcs of a scene with the nodes at their ends, and the EVE nodes.
+[[nodiscard]] Skeleton build_ev_skeleton(const Scene& scene,
+                                         const SkeletonRequest& request = {});
+
+/// What lies along an arc's line at parameter s of its edge: all contacts in order along
+/// the maximal free segment, and what ends it on either side.
+/// Computed on demand by OcclusionIndex; see maximal_free_segment there.
+
+}  // namespace sightline
