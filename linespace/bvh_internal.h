@@ -1,0 +1,62 @@
+// A bounding volume hierarchy over boxes, for the shafts that Embree has no query for.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "linespace/scene.h"
+
+namespace sightline::internal {
+
+/// Double coordinates, exact: every item's box contains its points as given.
+struct Box {
+  std::array<double, 3> min, max;
+};
+
+[[nodiscard]] Box box_of(std::span<const Point> points);
+
+/// Binary tree; nodes are stored so that the two children of a node are neighbours.
+class Bvh {
+ public:
+  struct Node {
+    Box box;
+    std::uint32_t first;  ///< left child, or first position in items() of a leaf
+    std::uint32_t count;  ///< 0 for an inner node, else number of items of the leaf
+  };
+
+  explicit Bvh(std::span<const Box> boxes, int leaf_size = 4);
+
+  [[nodiscard]] bool empty() const { return nodes_.empty(); }
+  [[nodiscard]] const Node& node(std::uint32_t i) const { return nodes_[i]; }
+  [[nodiscard]] std::span<const Node> nodes() const { return nodes_; }
+  /// Item numbers in leaf order.
+  [[nodiscard]] std::span<const std::uint32_t> items() const { return items_; }
+
+  /// Visits every item whose leaf `enter` lets in: enter(box) -> bool for nodes,
+  /// visit(item) for items.
+  template <class Enter, class Visit>
+  void traverse(Enter&& enter, Visit&& visit) const {
+    if (nodes_.empty()) return;
+    std::uint32_t stack[128];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+      const Node& n = nodes_[stack[--top]];
+      if (!enter(n.box)) continue;
+      if (n.count > 0) {
+        for (std::uint32_t i = 0; i < n.count; ++i) visit(items_[n.first + i]);
+      } else {
+        stack[top++] = n.first + 1;
+        stack[top++] = n.first;
+      }
+    }
+  }
+
+ private:
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> items_;
+};
+
+}  // namespace sightline::internal
