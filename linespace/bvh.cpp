@@ -28,7 +28,7 @@ void extend(Box& box, const Box& other) {
   }
 }
 
-void extend(Box& box, const std::array<double, 3>& p) {
+void include(Box& box, const std::array<double, 3>& p) {
   for (int k = 0; k < 3; ++k) {
     box.min[k] = std::min(box.min[k], p[k]);
     box.max[k] = std::max(box.max[k], p[k]);
@@ -64,7 +64,7 @@ struct Builder {
   // Reorders items [first, last) into two non-empty parts and returns where they meet.
   std::uint32_t split(const Work& w) {
     Box spread = kEmptyBox;
-    for (std::uint32_t i = w.first; i < w.last; ++i) extend(spread, centres[items[i]]);
+    for (std::uint32_t i = w.first; i < w.last; ++i) include(spread, centres[items[i]]);
     const int axis = widest_axis(spread);
     const double low = spread.min[axis];
     const double width = spread.max[axis] - low;
@@ -129,7 +129,7 @@ struct Builder {
 
 Box box_of(std::span<const Point> points) {
   Box box = kEmptyBox;
-  for (const Point& p : points) extend(box, {p.x(), p.y(), p.z()});
+  for (const Point& p : points) include(box, {p.x(), p.y(), p.z()});
   return box;
 }
 

@@ -14,9 +14,14 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 namespace sightline {
+
+namespace internal {
+struct SceneBuilder;
+}
 
 using Point = Eigen::Vector3d;
 
@@ -28,6 +33,8 @@ class InvalidInput : public std::runtime_error {
 
 /// Polygons as a file gives them: indices into vertices, faces in file order.
 struct PolygonSoup {
+  /// Groups may overlap (OBJ allows it): a face belongs to the object of the first group
+  /// that lists it, and is found under the names of all.
   struct Group {
     std::string name;
     std::vector<int> faces;  ///< indices into `polygons`, ascending
@@ -39,11 +46,15 @@ struct PolygonSoup {
 };
 
 /// Seen from outside: Convex is a ridge, Reflex a valley, Flat neither, Boundary has one
-/// face, NonManifold three or more, or two of inconsistent orientation.
+/// face, NonManifold three or more, or two of inconsistent orientation.  Two coplanar
+/// faces folded back onto each other are the edge of an infinitely thin sheet: Convex.
 enum class EdgeKind : std::uint8_t { Convex, Reflex, Flat, Boundary, NonManifold };
 
-/// A convex polygon with its front on the side where it is counter-clockwise.  A polygon
-/// of the file that is not convex becomes several faces of one `source`.
+/// A convex polygon, exactly planar, with its front on the side where it is
+/// counter-clockwise.  Its first three corners are never collinear, so that they give its
+/// plane; further corners may lie on a side (angle of 180 degrees).  A polygon of the
+/// file that is not convex or not exactly planar becomes several triangles of one
+/// `source`.
 struct Face {
   int first_corner;  ///< position of its points in Scene::face_points
   int corner_count;
@@ -133,16 +144,54 @@ class Scene {
   /// Face ids that have point p as a corner.
   [[nodiscard]] std::span<const int> faces_at(int p) const;
   [[nodiscard]] std::span<const Object> objects() const { return objects_; }
-  /// Index of the object of that name or of `#i-j`; throws InvalidInput otherwise.
+  /// Index of the object of that name.  Throws InvalidInput, naming some that exist, when
+  /// there is none.
   [[nodiscard]] int object_named(const std::string& name) const;
+  /// Face ids, ascending, of the object or group of that name, or of `#i-j`: the polygons
+  /// i to j of the file, both included.  Throws InvalidInput when there is no such name
+  /// or no such polygon.
+  [[nodiscard]] std::vector<int> faces_named(const std::string& name) const;
 
   [[nodiscard]] const PolygonSoup& soup() const { return soup_; }
+  /// A vertex of the file that has the coordinates of point p: the first one used.
+  [[nodiscard]] int vertex_of(int p) const { return point_vertices_[p]; }
+  /// What is wrong with the scene, found while loading: all but self-touching.
   [[nodiscard]] std::span<const Defect> defects() const { return defects_; }
   [[nodiscard]] const MeshEdgeCounts& mesh_edges() const { return mesh_edges_; }
   /// Number of closed, consistently oriented components.
   [[nodiscard]] int solids() const { return solids_; }
   /// Corner of the bounding box with the smallest, the largest coordinates.
   [[nodiscard]] const std::array<Point, 2>& bounds() const { return bounds_; }
+
+ private:
+  friend struct internal::SceneBuilder;
+
+  PolygonSoup soup_;
+  std::vector<Point> points_;
+  std::vector<int> point_vertices_;
+  std::vector<Face> faces_;
+  std::vector<int> corners_;  // point ids of all faces, face after face
+  std::vector<Facet> facets_;
+  std::vector<Edge> edges_;
+  std::vector<int> corner_points_;
+  // Edges (faces) at point p: positions edge_starts_[p] to edge_starts_[p + 1] of
+  // edge_ids_.
+  std::vector<int> edge_starts_, edge_ids_;
+  std::vector<int> face_starts_, face_ids_;
+  std::vector<Object> objects_;
+  std::unordered_map<std::string, int> object_names_;
+  std::vector<Defect> defects_;
+  MeshEdgeCounts mesh_edges_;
+  int solids_ = 0;
+  std::array<Point, 2> bounds_;
 };
+
+/// Pairs of faces of one object that meet in more than the corners and edges they share:
+/// one defect of kind "self-touching" per pair of polygons.  Exact.  Cost: about n log n
+/// for n faces and few touching pairs.
+[[nodiscard]] std::vector<Defect> find_self_touching(const Scene& scene);
+
+/// Every defect of the scene: those found while loading, then find_self_touching.
+[[nodiscard]] std::vector<Defect> validate(const Scene& scene);
 
 }  // namespace sightline
