@@ -19,7 +19,7 @@ missing_packages() {
   local package
   for package in "$@"; do
     [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) == installed ]] ||
-      printf '%s\n' "$package"
+      printf '%s ' "$package"
   done
 }
 
@@ -38,7 +38,7 @@ install_packages() {
     return 0
   fi
   local missing
-  mapfile -t missing < <(missing_packages "$@")
+  read -ra missing <<<"$(missing_packages "$@")"
   ((${#missing[@]})) || return 0
   if ((EUID != 0)); then
     say "Packages are missing. As root, run this once, then try again:"
@@ -46,11 +46,30 @@ install_packages() {
     return 1
   fi
   say "Installing ${missing[*]}"
+  lend_proc
   # Package lists that are missing or too old show as a failure; then they are fetched.
   if ! apt_get -s install "${missing[@]}" 2>/dev/null >/dev/null; then
     apt_get update
   fi
   apt_get install "${missing[@]}" || { apt_get update && apt_get install "${missing[@]}"; }
+  return_proc
+}
+
+# libvtk9-dev brings Java, which cannot be set up without /proc; a bare chroot has none.
+# Mounted for the installation only, and left as it was found.
+lend_proc() {
+  [[ ! -e /proc/self ]] || return 0
+  if ! mount -t proc proc /proc 2>/dev/null; then
+    say "/proc is not mounted and cannot be: run 'mount -t proc proc /proc', then try again"
+    return 1
+  fi
+  trap return_proc EXIT
+}
+
+return_proc() {
+  [[ $(trap -p EXIT) == *return_proc* ]] || return 0
+  trap - EXIT
+  umount /proc
 }
 
 # Parallel compilations: one per core, and 2 GB of memory for each (CGAL's need it).

@@ -1,0 +1,39 @@
+// Where the view of a scene changes: its EV skeleton, counted by kind, and one arc
+// with its corner and edge.  One task, top to bottom.
+
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "linespace/mesh_io.h"
+#include "linespace/scene.h"
+#include "skeleton/ev_skeleton.h"
+
+int main(int argc, char** argv) {
+  // A file becomes a scene once, validated; from then on it is immutable.
+  const std::string file = argc > 1 ? argv[1] : "scenes/room.obj";
+  const sightline::Scene scene(sightline::read_mesh(file));
+
+  // The whole exact answer, on all cores; the request may also name a region, a budget, ...
+  const sightline::Skeleton skeleton = sightline::build_ev_skeleton(scene);
+
+  std::map<sightline::NodeKind, int> nodes;
+  for (const auto& node : skeleton.nodes) ++nodes[node.kind];
+  std::printf("%s: %zu faces, %zu EV arcs\n", file.c_str(), scene.faces().size(),
+              skeleton.arcs.size());
+  for (const auto& [kind, label] :
+       std::map<sightline::NodeKind, const char*>{{sightline::NodeKind::VV, "VV"},
+                                                  {sightline::NodeKind::VEE, "VEE"},
+                                                  {sightline::NodeKind::EVE, "EVE"},
+                                                  {sightline::NodeKind::FvE, "FvE"}}) {
+    std::printf("%4s %d\n", label, nodes[kind]);
+  }
+
+  // Every arc knows its generators: here a corner and an edge of which it sees a part.
+  if (skeleton.arcs.empty()) return 1;
+  const auto& arc = skeleton.arcs.front();
+  const auto& vertex = scene.point(arc.vertex);
+  std::printf("the corner (%g %g %g) sees edge %d from %g to %g\n", vertex.x(), vertex.y(),
+              vertex.z(), arc.edge, arc.range[0], arc.range[1]);
+  return skeleton.complete ? 0 : 1;
+}
