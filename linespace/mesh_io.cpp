@@ -1,0 +1,184 @@
+// Choosing the reader, loading the file, and scanning text.
+
+#include "linespace/mesh_io.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "linespace/mesh_io_internal.h"
+
+namespace sightline {
+namespace internal {
+
+void refuse(const std::string& path, const std::string& message) {
+  throw InvalidInput(path + ": " + message);
+}
+
+void refuse_line(const std::string& path, std::size_t line, const std::string& message) {
+  throw InvalidInput(path + ":" + std::to_string(line) + ": " + message);
+}
+
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kShown = 24;
+  std::string shown = "'";
+  for (const char c : text.substr(0, kShown)) {
+    shown += c >= ' ' && c <= '~' ? c : '?';
+  }
+  return shown + (text.size() > kShown ? "...'" : "'");
+}
+
+std::optional<double> parse_double(std::string_view token) {
+  if (token.starts_with('+')) token.remove_prefix(1);
+  double value = 0;
+  const char* const end = token.data() + token.size();
+  const auto result = std::from_chars(token.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end || !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::optional<long long> parse_integer(std::string_view token) {
+  if (token.starts_with('+')) token.remove_prefix(1);
+  long long value = 0;
+  const char* const end = token.data() + token.size();
+  const auto result = std::from_chars(token.data(), end, value);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return value;
+}
+
+bool LineReader::next() {
+  if (rest_.empty()) return false;
+  const std::size_t end = rest_.find_first_of("\r\n");
+  line_ = rest_.substr(0, end);
+  if (end == std::string_view::npos) {
+    rest_ = {};
+  } else {
+    const bool two =
+        rest_[end] == '\r' && end + 1 < rest_.size() && rest_[end + 1] == '\n';
+    rest_.remove_prefix(end + (two ? 2 : 1));
+  }
+  number_ = next_number_++;
+  return true;
+}
+
+bool LineReader::next_filled(char comment) {
+  while (next()) {
+    line_ = line_.substr(0, line_.find(comment));
+    if (!rest().empty()) return true;
+  }
+  return false;
+}
+
+namespace {
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
+}  // namespace
+
+std::string_view LineReader::rest() const {
+  std::string_view text = line_;
+  while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
+  while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
+  return text;
+}
+
+std::string_view LineReader::token() {
+  while (!line_.empty() && is_blank(line_.front())) line_.remove_prefix(1);
+  std::size_t n = 0;
+  while (n < line_.size() && !is_blank(line_[n])) ++n;
+  const std::string_view found = line_.substr(0, n);
+  line_.remove_prefix(n);
+  return found;
+}
+
+double LineReader::number(const char* what) {
+  const std::string_view text = token();
+  if (text.empty()) refuse(std::string(what) + " is missing");
+  const auto value = parse_double(text);
+  if (!value) refuse(std::string(what) + " is not a finite number: " + quoted(text));
+  return *value;
+}
+
+long long LineReader::integer(const char* what) {
+  const std::string_view text = token();
+  if (text.empty()) refuse(std::string(what) + " is missing");
+  const auto value = parse_integer(text);
+  if (!value) refuse(std::string(what) + " is not a whole number: " + quoted(text));
+  return *value;
+}
+
+void LineReader::end_of_line() {
+  const std::string_view text = token();
+  if (!text.empty()) refuse("unexpected " + quoted(text));
+}
+
+namespace {
+
+std::string extension_of(const std::string& path) {
+  std::string extension = std::filesystem::path(path).extension().string();
+  if (!extension.empty()) extension.erase(0, 1);
+  for (char& c : extension) {
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  }
+  return extension;
+}
+
+std::string load(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) refuse(path, "is a folder");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) refuse(path, "cannot be opened");
+  std::string bytes;
+  constexpr std::size_t kBlock = 1 << 20;
+  for (;;) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + kBlock);
+    in.read(bytes.data() + size, kBlock);
+    bytes.resize(size + static_cast<std::size_t>(in.gcount()));
+    if (in.gcount() == 0) break;
+  }
+  if (in.bad()) refuse(path, "cannot be read");
+  if (bytes.empty()) refuse(path, "the file is empty");
+  return bytes;
+}
+
+struct Format {
+  const char* extension;
+  PolygonSoup (*read)(const std::string& path, std::string_view bytes);
+};
+constexpr Format kFormats[] = {
+    {"obj", read_obj}, {"off", read_off}, {"ply", read_ply}, {"stl", read_stl}};
+
+}  // namespace
+}  // namespace internal
+
+PolygonSoup read_mesh(const std::string& path) {
+  const std::string extension = internal::extension_of(path);
+  const auto* const format =
+      std::find_if(std::begin(internal::kFormats), std::end(internal::kFormats),
+                   [&](const auto& f) { return extension == f.extension; });
+  PolygonSoup soup;
+  if (format != std::end(internal::kFormats)) {
+    const std::string bytes = internal::load(path);
+    soup = format->read(path, bytes);
+  } else {
+    soup = internal::read_with_assimp(path, extension);
+  }
+  soup.source = path;
+  if (soup.polygons.empty()) internal::refuse(path, "no faces");
+  return soup;
+}
+
+std::vector<std::string> readable_extensions() {
+  auto all = internal::assimp_extensions();
+  for (const auto& format : internal::kFormats) all.emplace_back(format.extension);
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+}  // namespace sightline

@@ -1,0 +1,73 @@
+// What the readers share: a file in memory, and strict scanning of text.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "linespace/mesh_io.h"
+
+namespace sightline::internal {
+
+/// One line that names file and line.
+[[noreturn]] void refuse(const std::string& path, const std::string& message);
+[[noreturn]] void refuse_line(const std::string& path, std::size_t line,
+                              const std::string& message);
+
+/// Walks over the lines of a text; `\r\n` and `\r` end a line as `\n` does.
+class LineReader {
+ public:
+  LineReader(const std::string& path, std::string_view text, std::size_t first_line = 1)
+      : path_(path), rest_(text), next_number_(first_line) {}
+
+  /// Moves on to the next line; false at the end of the text.
+  bool next();
+  /// Moves on to the next line that has a token when everything from `comment` on is
+  /// left out; false at the end of the text.
+  bool next_filled(char comment = '\n');
+
+  /// Number of the current line.
+  [[nodiscard]] std::size_t number() const { return number_; }
+  /// The rest of the current line, surrounding blanks removed.
+  [[nodiscard]] std::string_view rest() const;
+  /// Bytes after the current line.
+  [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
+
+  /// The next token of the line, empty at its end.
+  std::string_view token();
+  /// A finite number; refuses anything else, naming `what`.
+  double number(const char* what);
+  /// A whole number that fits; refuses anything else, naming `what`.
+  long long integer(const char* what);
+  /// Requires that the line has no further token.
+  void end_of_line();
+
+  [[noreturn]] void refuse(const std::string& message) const {
+    refuse_line(path_, number_, message);
+  }
+
+ private:
+  const std::string& path_;
+  std::string_view rest_, line_;
+  std::size_t next_number_, number_ = 0;
+};
+
+/// The whole token as a finite double; nullopt otherwise.
+[[nodiscard]] std::optional<double> parse_double(std::string_view token);
+[[nodiscard]] std::optional<long long> parse_integer(std::string_view token);
+
+/// A token or line as it may stand in a message: printable, shortened.
+[[nodiscard]] std::string quoted(std::string_view text);
+
+[[nodiscard]] PolygonSoup read_obj(const std::string& path, std::string_view text);
+[[nodiscard]] PolygonSoup read_off(const std::string& path, std::string_view text);
+[[nodiscard]] PolygonSoup read_ply(const std::string& path, std::string_view bytes);
+[[nodiscard]] PolygonSoup read_stl(const std::string& path, std::string_view bytes);
+
+/// Through assimp; throws InvalidInput when the build has none.
+[[nodiscard]] PolygonSoup read_with_assimp(const std::string& path,
+                                           const std::string& extension);
+[[nodiscard]] std::vector<std::string> assimp_extensions();
+
+}  // namespace sightline::internal

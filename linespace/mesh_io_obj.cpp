@@ -1,0 +1,144 @@
+// Wavefront OBJ: vertices, polygons, and the names of `o` and `g` lines.
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <unordered_map>
+
+#include "linespace/mesh_io_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+// Statements that say nothing about polygons; any other unknown word is refused, because
+// it means that the file is damaged or no OBJ.
+constexpr std::array<std::string_view, 41> kIgnored{
+    "bevel",    "bmat",       "bsp",    "bzp",    "c_interp", "call", "cdc",
+    "cdp",      "con",        "csh",    "cstype", "ctech",    "curv", "curv2",
+    "d_interp", "deg",        "end",    "hole",   "l",        "lod",  "maplib",
+    "mg",       "mtllib",     "p",      "parm",   "res",      "s",    "scrv",
+    "sh",       "shadow_obj", "sp",     "stech",  "step",     "surf", "trace_obj",
+    "trim",     "usemap",     "usemtl", "vn",     "vp",       "vt"};
+
+class ObjReader {
+ public:
+  ObjReader(const std::string& path, std::string_view text)
+      : path_(path), lines_(path, text) {}
+
+  PolygonSoup read() {
+    while (lines_.next_filled('#')) {
+      // A backslash at the end continues the statement on the next line.
+      if (lines_.rest().ends_with('\\')) {
+        read_continued();
+      } else {
+        read_statement(lines_);
+      }
+    }
+    if (late_index_ > static_cast<long long>(soup_.vertices.size())) {
+      refuse_line(path_, late_line_,
+                  "names vertex " + std::to_string(late_index_) + " of " +
+                      std::to_string(soup_.vertices.size()));
+    }
+    return std::move(soup_);
+  }
+
+ private:
+  void read_continued() {
+    const std::size_t first = lines_.number();
+    std::string joined;
+    for (;;) {
+      std::string_view part = lines_.rest();
+      const bool more = part.ends_with('\\');
+      if (more) part.remove_suffix(1);
+      joined.append(part).push_back(' ');
+      if (!more || !lines_.next()) break;
+    }
+    LineReader statement(path_, joined, first);
+    if (statement.next_filled('#')) read_statement(statement);
+  }
+
+  void read_statement(LineReader& line) {
+    const std::string_view word = line.token();
+    if (word == "v") {
+      Point p;
+      for (double& x : p) x = line.number("a coordinate");
+      soup_.vertices.push_back(p);  // weight and colours may follow
+    } else if (word == "f" || word == "fo") {
+      read_face(line);
+    } else if (word == "g") {
+      groups_.clear();
+      for (auto name = line.token(); !name.empty(); name = line.token()) {
+        groups_.push_back(group_named(std::string(name)));
+      }
+    } else if (word == "o") {
+      groups_.clear();
+      object_ = line.rest().empty() ? -1 : group_named(std::string(line.rest()));
+    } else if (std::find(kIgnored.begin(), kIgnored.end(), word) == kIgnored.end()) {
+      line.refuse("no OBJ statement: " + quoted(word));
+    }
+  }
+
+  void read_face(LineReader& line) {
+    std::vector<int> polygon;
+    polygon.reserve(4);
+    for (auto corner = line.token(); !corner.empty(); corner = line.token()) {
+      const std::size_t slash = corner.find('/');
+      const auto index = parse_integer(corner.substr(0, slash));
+      const bool rest_is_fine =
+          slash == std::string_view::npos ||
+          corner.find_first_not_of("0123456789/-", slash) == std::string_view::npos;
+      if (!index || !rest_is_fine) line.refuse("no corner of a face: " + quoted(corner));
+      polygon.push_back(vertex_at(line, *index));
+    }
+    if (polygon.empty()) line.refuse("a face without corners");
+    const int face = static_cast<int>(soup_.polygons.size());
+    soup_.polygons.push_back(std::move(polygon));
+    for (const int g : groups_) add(g, face);
+    if (object_ >= 0) add(object_, face);
+  }
+
+  // Counted from 1, or backwards from the latest vertex as -1.  A vertex may come later
+  // in the file: checked at the end.
+  int vertex_at(const LineReader& line, long long index) {
+    const auto count = static_cast<long long>(soup_.vertices.size());
+    if (index < 0 && index >= -count) return static_cast<int>(count + index);
+    if (index <= 0 || index > std::numeric_limits<int>::max()) {
+      line.refuse("names vertex " + std::to_string(index) + " of " +
+                  std::to_string(count));
+    }
+    if (index > count && index > late_index_) {
+      late_index_ = index;
+      late_line_ = line.number();
+    }
+    return static_cast<int>(index - 1);
+  }
+
+  int group_named(const std::string& name) {
+    const auto [entry, is_new] =
+        numbers_.emplace(name, static_cast<int>(soup_.groups.size()));
+    if (is_new) soup_.groups.push_back({name, {}});
+    return entry->second;
+  }
+
+  void add(int group, int face) {
+    auto& faces = soup_.groups[group].faces;
+    if (faces.empty() || faces.back() != face) faces.push_back(face);
+  }
+
+  const std::string& path_;
+  LineReader lines_;
+  PolygonSoup soup_;
+  std::unordered_map<std::string, int> numbers_;
+  std::vector<int> groups_;  // of the last `g`
+  int object_ = -1;          // of the last `o`
+  long long late_index_ = 0;
+  std::size_t late_line_ = 0;
+};
+
+}  // namespace
+
+PolygonSoup read_obj(const std::string& path, std::string_view text) {
+  return ObjReader(path, text).read();
+}
+
+}  // namespace sightline::internal
