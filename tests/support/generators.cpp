@@ -445,7 +445,7 @@ const std::vector<TouchingCase>& touching_cases() {
        {{{0, 0, 0}, {2, 4, 4}}, {{2, 1, 4}, {3, 3, 6}}}},
       {Touching::CrossedEdges,
        "crossed-edges",
-       {{{0, 0, 0}, {4, 2, 2}}, {{1, 2, 2}, {3, 4, 5}}}},
+       {{{1, 0, 0}, {5, 2, 2}}, {{0, 1, 2}, {3, 4, 4}}}},
       {Touching::Corner, "corner", {{{0, 0, 0}, {2, 2, 2}}, {{2, 2, 2}, {5, 4, 3}}}},
       {Touching::CornerOnEdge,
        "corner-on-edge",

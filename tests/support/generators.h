@@ -103,7 +103,7 @@ enum class Touching {
   Edge,            ///< two boxes with a whole common edge, diagonal to each other
   EdgePart,        ///< the same, shifted along the edge
   EdgeOnFace,      ///< an edge of one inside the plane of another's face, faces abutting
-  CrossedEdges,    ///< edges of different direction touch at one point
+  CrossedEdges,    ///< a roof's edge crosses the bottom edge of a box on it
   Corner,          ///< two boxes with only a corner in common
   CornerOnEdge,    ///< a corner of one inside an edge of another
   Stack,           ///< three boxes of one footprint on top of each other

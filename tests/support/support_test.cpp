@@ -1,5 +1,5 @@
 // The generators make what they promise: closed solids, disjoint where they should be,
-// the same for the same seed.
+// the same for the same seed; and the naive oracles answer cases worked out by hand.
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 #include <sstream>
 
 #include "tests/support/generators.h"
+#include "tests/support/naive_boxes.h"
+#include "tests/support/naive_ev.h"
 
 namespace sightline::testing {
 namespace {
@@ -178,7 +180,7 @@ TEST(Generators, CitiesStandOnTheirSlab) {
     const auto ground = soup.groups[0];
     for (std::size_t g = 1; g < soup.groups.size(); ++g) {
       EXPECT_EQ(extent(soup, soup.groups[g], Point::UnitZ()).first, 0);
-      for (const Point axis : {Point(1, 0, 0), Point(0, 1, 0)}) {
+      for (const Point& axis : {Point(1, 0, 0), Point(0, 1, 0)}) {
         const auto outer = extent(soup, ground, axis);
         const auto inner = extent(soup, soup.groups[g], axis);
         EXPECT_LT(outer.first, inner.first);
@@ -226,6 +228,57 @@ TEST(Generators, ObjKeepsEveryBit) {
   EXPECT_EQ(vertices, soup.vertices);
   EXPECT_EQ(faces, 60);
   EXPECT_EQ(groups, 10);
+}
+
+TEST(NaiveEv, IsDefinedForGeneralPositionOnly) {
+  EXPECT_THROW((void)naive_ev(touching_boxes(Touching::Row)), NotGeneral);
+  EXPECT_THROW((void)naive_ev(random_boxes(1, 3, {.grid = 9, .max_size = 3})),
+               NotGeneral);
+}
+
+// The identity 2 EV = 4 VV + VEE + FvE and the match of arcs' ends with nodes are checked
+// inside; every kind must occur for that to mean anything.
+TEST(NaiveEv, FindsEveryKindAndEachOnce) {
+  const CanonicalSkeleton s =
+      naive_ev(random_polytopes(14, 5, {.max_vertices = 8, .density = 0.25}));
+  for (const char* kind : {"VV", "VEE", "EVE", "FvE", "EV"}) {
+    EXPECT_GT(s.counts()[kind], 0) << kind;
+  }
+  EXPECT_EQ(std::ranges::adjacent_find(s.nodes), s.nodes.end());
+}
+
+TEST(BoxUnion, KnowsItsCornersAndRidges) {
+  const BoxUnion flush(touching_boxes(Touching::FaceFlush));
+  EXPECT_TRUE(flush.is_corner({0, 0, 0}));
+  EXPECT_TRUE(flush.is_corner({2, 0, 2}));   // where the higher wall starts
+  EXPECT_FALSE(flush.is_corner({2, 0, 0}));  // inside an edge of the union
+  EXPECT_TRUE(flush.is_ridge({2, 0, 3}, 2));
+  EXPECT_FALSE(flush.is_ridge({2, 0, 1}, 2));  // inside the common front wall
+  EXPECT_FALSE(flush.is_ridge({2, 1, 2}, 1));  // a valley
+  const BoxUnion diagonal(touching_boxes(Touching::Edge));
+  EXPECT_FALSE(diagonal.is_ridge({2, 2, 1}, 2));
+}
+
+TEST(BoxUnion, JudgesContactsByNearbyLines) {
+  const auto judge = [](Touching kind, const Point& a, const Point& b) {
+    return BoxUnion(touching_boxes(kind)).judge(a, b);
+  };
+  // Between two boxes that share an edge no line passes across it.
+  EXPECT_FALSE(judge(Touching::Edge, {1, 3, 1}, {3, 1, 1}).free);
+  // Where edges cross, a slit is left that only tilted lines pass.
+  EXPECT_TRUE(judge(Touching::CrossedEdges, {2, 3, 2}, {4, 1, 2}).free);
+  EXPECT_FALSE(judge(Touching::CrossedEdges, {2, 1, 2}, {4, 3, 2}).free);
+  // Nor does a line pass in the plane of a common face, but over a row of roofs it does.
+  EXPECT_FALSE(judge(Touching::FaceToFace, {2, -1, 1}, {2, 3, 1}).free);
+  EXPECT_TRUE(judge(Touching::Row, {-1, 0.5, 1}, {6, 0.25, 1}).free);
+  EXPECT_TRUE(judge(Touching::Row, {-1, 0.5, 1}, {6, 0.25, 1}).edge_on);
+  EXPECT_FALSE(judge(Touching::RowOfDifferent, {-1, 1, 2}, {6, 1, 2}).free);
+  EXPECT_TRUE(judge(Touching::RowOfDifferent, {2, -1, 4}, {2, 5, 4}).free);
+  // Down a shaft whose walls touch along edges, and through the touching edges.
+  EXPECT_TRUE(judge(Touching::Around, {3, 3, -1}, {3, 3, 5}).free);
+  EXPECT_TRUE(judge(Touching::Around, {2, 3, -1}, {2, 3, 5}).free);
+  EXPECT_FALSE(judge(Touching::Around, {1, 1, 1}, {5, 5, 1}).free);
+  EXPECT_TRUE(judge(Touching::Corner, {2, 2, 5}, {2, 2, -1}).free);
 }
 
 }  // namespace

@@ -1,0 +1,61 @@
+// An EV skeleton told in coordinates only, so that skeletons of reordered, moved or
+// independently computed scenes can be compared for equality.
+
+#pragma once
+
+#include <array>
+#include <compare>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace sightline::testing {
+
+using Coordinates = std::array<double, 3>;
+
+/// A vertex by its point, an edge by its two ends, a face by all its corners; sorted.
+struct GeneratorKey {
+  char kind;  ///< 'V', 'E' or 'F'
+  std::vector<Coordinates> points;
+  friend auto operator<=>(const GeneratorKey&, const GeneratorKey&) = default;
+};
+
+/// A node: its name with "_self" or "_end" where that applies, and its generators.  Of
+/// VV, VEE and EVE in order along the line, in the direction that comes first
+/// lexicographically; of the others sorted.
+struct NodeKey {
+  std::string kind;
+  std::vector<GeneratorKey> generators;
+  friend auto operator<=>(const NodeKey&, const NodeKey&) = default;
+};
+
+/// An arc: nodes[0] is the one towards the edge's smaller end point.
+struct ArcKey {
+  GeneratorKey vertex, edge;
+  bool self = false;
+  std::array<NodeKey, 2> nodes;
+  friend auto operator<=>(const ArcKey&, const ArcKey&) = default;
+};
+
+/// All nodes and arcs, sorted, repeated where several are alike.
+struct CanonicalSkeleton {
+  std::vector<NodeKey> nodes;
+  std::vector<ArcKey> arcs;
+  friend bool operator==(const CanonicalSkeleton&, const CanonicalSkeleton&) = default;
+
+  void sort();
+  /// Number of nodes of each kind, and of arcs under "EV" and "EV_self".
+  [[nodiscard]] std::map<std::string, int> counts() const;
+};
+
+/// Puts the generators of a node in the order that NodeKey asks for.
+[[nodiscard]] NodeKey node_key(std::string kind, std::vector<GeneratorKey> along_line);
+
+/// What one has and the other has not, in words, at most `limit` items of each; empty
+/// when they are equal.
+[[nodiscard]] std::string difference(const CanonicalSkeleton& a,
+                                     const std::string& a_name,
+                                     const CanonicalSkeleton& b,
+                                     const std::string& b_name, int limit = 4);
+
+}  // namespace sightline::testing

@@ -1,0 +1,446 @@
+#include "tests/support/naive_ev.h"
+
+#include <CGAL/Exact_rational.h>
+#include <CGAL/Lazy_exact_nt.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+namespace sightline::testing {
+namespace {
+
+/// Rationals that look at an interval first; every sign is exact.
+using Number = CGAL::Lazy_exact_nt<CGAL::Exact_rational>;
+
+struct Vector {
+  Number x, y, z;
+};
+
+Vector operator+(const Vector& a, const Vector& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+Vector operator-(const Vector& a, const Vector& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+Vector operator*(const Number& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
+Number dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+int sign_of(const Number& x) { return static_cast<int>(CGAL::sign(x)); }
+
+/// { x : normal . x = offset }; a solid lies where normal . x <= offset.
+struct Plane {
+  Vector normal;
+  Number offset;
+  [[nodiscard]] Number operator()(const Vector& p) const {
+    return dot(normal, p) - offset;
+  }
+};
+
+Plane plane_through(const Vector& a, const Vector& b, const Vector& c) {
+  const Vector normal = cross(b - a, c - a);
+  return {normal, dot(normal, a)};
+}
+
+struct SolidFace {
+  std::vector<int> vertices;  // counter-clockwise seen from outside
+  Plane plane;
+  int solid;
+};
+
+struct SolidEdge {
+  int a, b;
+  int left, right;  // its two faces
+  int solid;
+};
+
+/// The polyhedra, with all indices global.
+struct Solids {
+  std::vector<Coordinates> coordinates;
+  std::vector<Vector> vertices;
+  std::vector<int> solid_of_vertex;
+  std::vector<std::vector<int>> faces_of_vertex;
+  std::vector<SolidFace> faces;
+  std::vector<SolidEdge> edges;
+  std::vector<std::vector<int>> faces_of_solid;
+
+  explicit Solids(const PolygonSoup& soup);
+
+  [[nodiscard]] GeneratorKey vertex_key(int v) const { return {'V', {coordinates[v]}}; }
+  [[nodiscard]] GeneratorKey edge_key(int e) const {
+    GeneratorKey key{'E', {coordinates[edges[e].a], coordinates[edges[e].b]}};
+    std::ranges::sort(key.points);
+    return key;
+  }
+  [[nodiscard]] GeneratorKey face_key(int f) const {
+    GeneratorKey key{'F', {}};
+    for (const int v : faces[f].vertices) key.points.push_back(coordinates[v]);
+    std::ranges::sort(key.points);
+    return key;
+  }
+
+  /// The line through v in that direction does not enter v's solid near v: neither
+  /// direction points into the interior of the cone that the faces at v bound.
+  [[nodiscard]] bool supports_at_vertex(int v, const Vector& direction) const {
+    return does_not_enter(faces_of_vertex[v], direction);
+  }
+  /// The same for a line through a point inside edge e.
+  [[nodiscard]] bool supports_at_edge(int e, const Vector& direction) const {
+    return does_not_enter({edges[e].left, edges[e].right}, direction);
+  }
+  /// No solid's interior meets the open segment ab.
+  [[nodiscard]] bool is_free(const Vector& a, const Vector& b) const;
+
+ private:
+  [[nodiscard]] bool does_not_enter(const std::vector<int>& around,
+                                    const Vector& direction) const {
+    bool all_in = true, all_out = true;
+    for (const int f : around) {
+      const int s = sign_of(dot(faces[f].plane.normal, direction));
+      all_in = all_in && s < 0;
+      all_out = all_out && s > 0;
+    }
+    return !all_in && !all_out;
+  }
+};
+
+Solids::Solids(const PolygonSoup& soup) {
+  for (std::size_t s = 0; s < soup.groups.size(); ++s) {
+    const int solid = static_cast<int>(s);
+    std::map<Coordinates, int> ids;
+    std::map<std::pair<int, int>, int> sides;  // directed side -> face
+    faces_of_solid.emplace_back();
+    for (const int f : soup.groups[s].faces) {
+      SolidFace face;
+      face.solid = solid;
+      const int face_id = static_cast<int>(faces.size());
+      for (const int v : soup.polygons[f]) {
+        const Point& p = soup.vertices[v];
+        const Coordinates key = {p[0] + 0.0, p[1] + 0.0, p[2] + 0.0};
+        const auto [it, is_new] = ids.try_emplace(key, static_cast<int>(vertices.size()));
+        if (is_new) {
+          coordinates.push_back(key);
+          vertices.push_back({Number(key[0]), Number(key[1]), Number(key[2])});
+          solid_of_vertex.push_back(solid);
+          faces_of_vertex.emplace_back();
+        }
+        face.vertices.push_back(it->second);
+        faces_of_vertex[it->second].push_back(face_id);
+      }
+      for (std::size_t i = 0; i < face.vertices.size(); ++i) {
+        sides[{face.vertices[i], face.vertices[(i + 1) % face.vertices.size()]}] =
+            face_id;
+      }
+      face.plane = plane_through(vertices[face.vertices[0]], vertices[face.vertices[1]],
+                                 vertices[face.vertices[2]]);
+      faces_of_solid.back().push_back(face_id);
+      faces.push_back(std::move(face));
+    }
+    for (const auto& [side, left] : sides) {
+      if (side.first > side.second) continue;
+      const auto twin = sides.find({side.second, side.first});
+      if (twin == sides.end()) throw NotGeneral("a group is not closed");
+      edges.push_back({side.first, side.second, left, twin->second, solid});
+    }
+    for (const int f : faces_of_solid.back()) {
+      for (const auto& [key, v] : ids) {
+        const bool on_face = std::ranges::count(faces[f].vertices, v) > 0;
+        const int side = sign_of(faces[f].plane(vertices[v]));
+        if (side > 0) throw NotGeneral("a group is not convex and outward");
+        if (on_face && side != 0) throw NotGeneral("a face is not planar");
+        if (!on_face && side == 0) throw NotGeneral("a group has coplanar faces");
+      }
+    }
+  }
+}
+
+bool Solids::is_free(const Vector& a, const Vector& b) const {
+  for (const std::vector<int>& solid : faces_of_solid) {
+    // The open interval of parameters at which the segment is inside the solid.
+    Number from = 0, to = 1;
+    bool misses = false;
+    for (const int f : solid) {
+      const Number at_a = faces[f].plane(a);
+      const Number at_b = faces[f].plane(b);
+      const int sign_a = sign_of(at_a), sign_b = sign_of(at_b);
+      if (sign_a >= 0 && sign_b >= 0) {
+        misses = true;
+        break;
+      }
+      if (sign_a > 0) {
+        from = std::max(from, Number(at_a / (at_a - at_b)));
+      } else if (sign_b > 0) {
+        to = std::min(to, Number(at_a / (at_a - at_b)));
+      }
+    }
+    if (!misses && from < to) return false;
+  }
+  return true;
+}
+
+/// A node as found from its definition, with what is needed to recognise it as an arc's
+/// end: its vertex, its last edge, and where on that edge it is.
+struct FoundNode {
+  NodeKey key;
+  Number parameter;
+};
+
+class Enumeration {
+ public:
+  explicit Enumeration(const PolygonSoup& soup) : s_(soup) {
+    const int n = static_cast<int>(s_.vertices.size());
+    for (int v = 0; v < n; ++v) {
+      find_planes(v);
+      find_vv(v);
+      find_vertex_edge_edge(v);
+    }
+    for (int f = 0; f < static_cast<int>(s_.faces.size()); ++f) find_fve(f);
+    for (int v = 0; v < n; ++v) {
+      find_planes(v);
+      for (int e = 0; e < static_cast<int>(s_.edges.size()); ++e) find_arcs(v, e);
+    }
+    check_identity();
+    result_.sort();
+  }
+  CanonicalSkeleton take() { return std::move(result_); }
+
+ private:
+  [[nodiscard]] Vector point_on(int e, const Number& s) const {
+    const Vector& a = s_.vertices[s_.edges[e].a];
+    return a + s * (s_.vertices[s_.edges[e].b] - a);
+  }
+  /// Where edge e's line crosses a plane it is not parallel to.
+  [[nodiscard]] Number crossing(int e, const Plane& plane) const {
+    const Number at_a = plane(s_.vertices[s_.edges[e].a]);
+    const Number at_b = plane(s_.vertices[s_.edges[e].b]);
+    return at_a / (at_a - at_b);
+  }
+
+  /// The planes through v and every edge not at v, and the side of each vertex.
+  void find_planes(int v);
+  void find_vv(int v);
+  void find_vertex_edge_edge(int v);
+  void find_fve(int f);
+  void find_arcs(int v, int e);
+  /// The node at which the arcs of (v, e) end at parameter s.
+  [[nodiscard]] const NodeKey& end_node(int v, int e, const Number& s) const;
+  void check_identity() const;
+
+  [[nodiscard]] bool crosses(int e, int other) const {
+    return side_[e][s_.edges[other].a] * side_[e][s_.edges[other].b] < 0;
+  }
+
+  Solids s_;
+  CanonicalSkeleton result_;
+  std::vector<std::optional<Plane>> plane_;  // of the current vertex, by edge
+  std::vector<std::vector<int>> side_;       // by edge, then vertex
+  std::map<std::pair<int, int>, NodeKey> vv_;
+  std::map<std::pair<int, int>, std::vector<FoundNode>> ends_;  // by vertex and edge
+};
+
+void Enumeration::find_planes(int v) {
+  plane_.assign(s_.edges.size(), std::nullopt);
+  side_.assign(s_.edges.size(), {});
+  for (std::size_t e = 0; e < s_.edges.size(); ++e) {
+    const SolidEdge& edge = s_.edges[e];
+    if (edge.a == v || edge.b == v) continue;
+    plane_[e] = plane_through(s_.vertices[v], s_.vertices[edge.a], s_.vertices[edge.b]);
+    side_[e].assign(s_.vertices.size(), 0);
+    for (std::size_t w = 0; w < s_.vertices.size(); ++w) {
+      const int i = static_cast<int>(w);
+      if (i == v || i == edge.a || i == edge.b) continue;
+      side_[e][w] = sign_of((*plane_[e])(s_.vertices[w]));
+      const bool one_solid =
+          edge.solid == s_.solid_of_vertex[v] && edge.solid == s_.solid_of_vertex[w];
+      if (side_[e][w] == 0 && !one_solid) throw NotGeneral("four coplanar vertices");
+    }
+  }
+}
+
+void Enumeration::find_vv(int v) {
+  for (int w = v + 1; w < static_cast<int>(s_.vertices.size()); ++w) {
+    if (s_.solid_of_vertex[v] == s_.solid_of_vertex[w]) continue;
+    const Vector& p = s_.vertices[v];
+    const Vector& q = s_.vertices[w];
+    if (!s_.supports_at_vertex(v, q - p) || !s_.supports_at_vertex(w, q - p)) continue;
+    if (!s_.is_free(p, q)) continue;
+    NodeKey key = node_key("VV", {s_.vertex_key(v), s_.vertex_key(w)});
+    vv_[{v, w}] = key;
+    result_.nodes.push_back(std::move(key));
+  }
+}
+
+void Enumeration::find_vertex_edge_edge(int v) {
+  const int n = static_cast<int>(s_.edges.size());
+  const Vector& p = s_.vertices[v];
+  for (int e = 0; e < n; ++e) {
+    if (s_.edges[e].solid == s_.solid_of_vertex[v]) continue;
+    for (int f = e + 1; f < n; ++f) {
+      if (s_.edges[f].solid == s_.solid_of_vertex[v] ||
+          s_.edges[f].solid == s_.edges[e].solid) {
+        continue;
+      }
+      // The line through v that meets both edges' lines lies in both planes; it meets the
+      // edges themselves iff each crosses the plane through v and the other.
+      if (!crosses(e, f) || !crosses(f, e)) continue;
+      const Number on_e = crossing(e, *plane_[f]);
+      const Number on_f = crossing(f, *plane_[e]);
+      const Vector x = point_on(e, on_e);
+      const Vector y = point_on(f, on_f);
+      const Vector direction = y - p;
+      if (!s_.supports_at_vertex(v, direction) || !s_.supports_at_edge(e, direction) ||
+          !s_.supports_at_edge(f, direction)) {
+        continue;
+      }
+      // x = p + position * direction, y is at position 1.
+      const Number squared = dot(direction, direction);
+      const Number position = dot(x - p, direction) / squared;
+      if (sign_of(position) < 0) {
+        if (!s_.is_free(x, y)) continue;
+        result_.nodes.push_back(
+            node_key("EVE", {s_.edge_key(e), s_.vertex_key(v), s_.edge_key(f)}));
+        continue;
+      }
+      const bool e_first = position < 1;
+      const int near = e_first ? e : f, far = e_first ? f : e;
+      if (!s_.is_free(p, e_first ? y : x)) continue;
+      NodeKey key =
+          node_key("VEE", {s_.vertex_key(v), s_.edge_key(near), s_.edge_key(far)});
+      ends_[{v, far}].push_back({key, e_first ? on_f : on_e});
+      result_.nodes.push_back(std::move(key));
+    }
+  }
+}
+
+void Enumeration::find_fve(int f) {
+  const SolidFace& face = s_.faces[f];
+  const int corners = static_cast<int>(face.vertices.size());
+  for (int e = 0; e < static_cast<int>(s_.edges.size()); ++e) {
+    const SolidEdge& edge = s_.edges[e];
+    if (edge.solid == face.solid) continue;
+    if (sign_of(face.plane(s_.vertices[edge.a])) *
+            sign_of(face.plane(s_.vertices[edge.b])) >=
+        0) {
+      continue;
+    }
+    const Number parameter = crossing(e, face.plane);
+    const Vector x = point_on(e, parameter);
+    for (int i = 0; i < corners; ++i) {
+      const int v = face.vertices[i];
+      const Vector& p = s_.vertices[v];
+      const Vector direction = x - p;
+      // Along the face: one of the line's two directions points between the sides at v.
+      const Vector to_next = s_.vertices[face.vertices[(i + 1) % corners]] - p;
+      const Vector to_previous =
+          s_.vertices[face.vertices[(i + corners - 1) % corners]] - p;
+      const Vector& normal = face.plane.normal;
+      const int left_of_next = sign_of(dot(normal, cross(to_next, direction)));
+      const int right_of_previous = sign_of(dot(normal, cross(direction, to_previous)));
+      if (left_of_next * right_of_previous <= 0) continue;
+      if (!s_.supports_at_edge(e, direction) || !s_.is_free(p, x)) continue;
+      NodeKey key = node_key("FvE", {s_.face_key(f), s_.vertex_key(v), s_.edge_key(e)});
+      ends_[{v, e}].push_back({key, parameter});
+      result_.nodes.push_back(std::move(key));
+    }
+  }
+}
+
+void Enumeration::find_arcs(int v, int e) {
+  const SolidEdge& edge = s_.edges[e];
+  if (edge.solid == s_.solid_of_vertex[v]) return;
+  const Vector& p = s_.vertices[v];
+  // e lies in the planes of both its faces, so a line from v to a point of e is on the
+  // same side of them wherever the point is.
+  if (!s_.supports_at_edge(e, s_.vertices[edge.a] - p)) return;
+
+  // Between neighbouring critical parameters nothing changes.
+  std::vector<Number> critical;
+  const auto add = [&](const Plane& plane) {
+    const Number at_a = plane(s_.vertices[edge.a]);
+    const Number at_b = plane(s_.vertices[edge.b]);
+    if (sign_of(at_a) * sign_of(at_b) < 0) critical.push_back(at_a / (at_a - at_b));
+  };
+  for (int f = 0; f < static_cast<int>(s_.edges.size()); ++f) {
+    // An edge strictly on one side of the plane through v and e meets no line of theirs.
+    if (f == e || !plane_[f]) continue;
+    if (side_[e][s_.edges[f].a] * side_[e][s_.edges[f].b] > 0) continue;
+    add(*plane_[f]);
+  }
+  for (const SolidFace& face : s_.faces) add(face.plane);
+  std::ranges::sort(critical);
+  const auto repeated = std::ranges::unique(critical);
+  critical.erase(repeated.begin(), repeated.end());
+
+  const auto is_in = [&](const Number& s) {
+    const Vector x = point_on(e, s);
+    return s_.supports_at_vertex(v, x - p) && s_.supports_at_edge(e, x - p) &&
+           s_.is_free(p, x);
+  };
+  std::vector<Number> bounds = {Number(0)};
+  bounds.insert(bounds.end(), critical.begin(), critical.end());
+  bounds.emplace_back(1);
+  // Maximal runs [first, last] of bounds between which every line is in.
+  std::vector<std::pair<std::size_t, std::size_t>> runs;
+  bool was_inside = false;
+  for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
+    const bool at_bound = i > 0 && is_in(bounds[i]);
+    const bool inside = is_in((bounds[i] + bounds[i + 1]) / 2);
+    if (i > 0 && !at_bound && (inside || was_inside)) {
+      throw std::logic_error("a component is not closed");
+    }
+    if (at_bound && !inside && !was_inside) throw NotGeneral("an isolated line");
+    if (inside && was_inside) {
+      runs.back().second = i + 1;
+    } else if (inside) {
+      runs.emplace_back(i, i + 1);
+    }
+    was_inside = inside;
+  }
+  for (const auto& [first, last] : runs) {
+    ArcKey arc{s_.vertex_key(v),
+               s_.edge_key(e),
+               false,
+               {end_node(v, e, bounds[first]), end_node(v, e, bounds[last])}};
+    if (s_.coordinates[edge.b] < s_.coordinates[edge.a]) {
+      std::swap(arc.nodes[0], arc.nodes[1]);
+    }
+    result_.arcs.push_back(std::move(arc));
+  }
+}
+
+const NodeKey& Enumeration::end_node(int v, int e, const Number& s) const {
+  if (s == 0 || s == 1) {
+    const int w = s == 0 ? s_.edges[e].a : s_.edges[e].b;
+    const auto found = vv_.find({std::min(v, w), std::max(v, w)});
+    if (found == vv_.end()) throw std::logic_error("an arc ends at no VV");
+    return found->second;
+  }
+  const NodeKey* result = nullptr;
+  if (const auto nodes = ends_.find({v, e}); nodes != ends_.end()) {
+    for (const FoundNode& node : nodes->second) {
+      if (node.parameter != s) continue;
+      if (result) throw NotGeneral("two nodes on one line");
+      result = &node.key;
+    }
+  }
+  if (!result) throw std::logic_error("an arc ends at no VEE and no FvE");
+  return *result;
+}
+
+void Enumeration::check_identity() const {
+  auto n = result_.counts();
+  if (2 * n["EV"] != 4 * n["VV"] + n["VEE"] + n["FvE"]) {
+    throw std::logic_error("2 EV = 4 VV + VEE + FvE does not hold");
+  }
+}
+
+}  // namespace
+
+CanonicalSkeleton naive_ev(const PolygonSoup& soup) { return Enumeration(soup).take(); }
+
+}  // namespace sightline::testing
