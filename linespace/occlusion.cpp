@@ -1,0 +1,770 @@
+// Segments against a scene: Embree finds candidates in float, bounded double arithmetic
+// certifies nearly all of them, and LineScan judges the few that touch.
+//
+// Two Embree scenes hold the faces, moved to the centre of the scene's box and scaled by a
+// power of two so that the box fits in [-1, 1]^3:
+// - triangles: every hit is a proposal, and becomes "blocked" only when certify() says
+//   that the segment crosses the inside of the face;
+// - boxes: one per face, as user geometry, widened by kInflation.  A segment that
+//   enters none of the boxes of the faces that certify() cannot exclude meets no face.
+//
+// Why kInflation suffices.  Ends of a ray are within 2 of the origin in each coordinate, so
+// its direction is within 4.  Rounding to float (u = 2^-24) moves a point of the ray by at
+// most 2u (origin) + 4u (direction).  A slab test computes (bound - origin) / direction,
+// whatever the order of its operations, with a few relative errors u of terms of
+// magnitude at most 4 / direction: as if the box had moved by at most 4 * 6u.  In all
+// under 32u = 2^-19; we widen by 2^-18.
+
+#include "linespace/occlusion.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <embree3/rtcore.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "linespace/bvh_internal.h"
+#include "linespace/contact_internal.h"
+
+namespace sightline {
+namespace {
+
+using internal::Box;
+using internal::Bvh;
+using internal::LineScan;
+using internal::Rational;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUlp = std::numeric_limits<double>::epsilon() / 2;  // 2^-53
+constexpr double kUnderflow = 1e-300;                                // see contact.cpp
+constexpr float kInflation = 0x1p-18f;
+// Ends of a line are looked at within this many scene sizes; beyond, Embree is not asked.
+constexpr double kFar = 0x1p20;
+
+// Where a line meets a polygon, as far as double arithmetic can tell.
+enum class Passage : std::uint8_t { Misses, Crosses, Doubtful };
+
+// A convex polygon, or a triangle of a folded one: `count` points from `first`.
+struct Item {
+  int face;
+  std::uint32_t first, count;
+};
+
+using Triple = std::array<double, 3>;
+
+// The line through a and b, prepared for certify().  Coordinates in the order i, j, k, with
+// k the axis of the largest |b - a|.
+struct Line {
+  int axis[3];
+  double a[3], b[3], d[3];
+
+  Line(const Point& p, const Point& q) {
+    const Point e = q - p;
+    int k = 0;
+    if (std::abs(e[1]) > std::abs(e[k])) k = 1;
+    if (std::abs(e[2]) > std::abs(e[k])) k = 2;
+    axis[0] = (k + 1) % 3;
+    axis[1] = (k + 2) % 3;
+    axis[2] = k;
+    for (int i = 0; i < 3; ++i) {
+      a[i] = p[axis[i]];
+      b[i] = q[axis[i]];
+      d[i] = e[axis[i]];
+    }
+  }
+};
+
+struct Crossing {
+  Passage line;   // by the whole line
+  int past_a = 0, past_b = 0;  // sign of t, of t - 1; 0 when uncertain; only for Crosses
+  // Only for Crosses: t = (n / s) / d_k within these bounds.
+  double n = 0, n_error = 0, s = 0, s_error = 0;
+};
+
+// How the line passes the polygon.
+//
+// The formulas and bounds for u and s are those of contact.cpp, first_stage(), with exact a
+// and |d| up to D = |d_k|, where d is off by one rounding:
+//   v: e V,   u: du = 10 e V D (taken as 12),   s: ds = 4 U du + 2 du^2 + 8 e U^2.
+// The crossing is at barycentric weights w (three values s of pairs of corners 0, 1, 2):
+//   n = sum of w v_k over three corners: dn <= 3 V ds + 3 * 2 U^2 * e V (v's rounding)
+//       + 3 * 2 U^2 V * 3e (products and sums), taken as 3 V ds + 32 e U^2 V;
+//   sum of w: 3 ds + 2 * 6 U^2 e (sums).
+// n has the sign of t times that of the sum times that of d_k; with v from b instead of a,
+// t - 1.
+inline Crossing certify(const Line& line, const Triple* points, std::size_t count) {
+  constexpr std::size_t kMost = 8;
+  if (count > kMost) return {Passage::Doubtful};
+  const int i = line.axis[0], j = line.axis[1], k = line.axis[2];
+  double ux[kMost], uy[kMost], vk[kMost];
+  double v = 0, u = 0;
+  for (std::size_t c = 0; c < count; ++c) {
+    const double vi = points[c][i] - line.a[0], vj = points[c][j] - line.a[1];
+    vk[c] = points[c][k] - line.a[2];
+    ux[c] = vi * line.d[2] - vk[c] * line.d[0];
+    uy[c] = vj * line.d[2] - vk[c] * line.d[1];
+    v = std::max(std::max(v, std::abs(vi)), std::max(std::abs(vj), std::abs(vk[c])));
+    u = std::max(u, std::max(std::abs(ux[c]), std::abs(uy[c])));
+  }
+  const double du = 12 * kUlp * v * std::abs(line.d[2]) + kUnderflow;
+  const double ds = 4 * u * du + 2 * du * du + 8 * kUlp * u * u + kUnderflow;
+  double least = kInfinity, most = -kInfinity;
+  double s[kMost];
+  for (std::size_t c = 0; c < count; ++c) {
+    const std::size_t next = c + 1 == count ? 0 : c + 1;
+    s[c] = ux[c] * uy[next] - uy[c] * ux[next];
+    least = std::min(least, s[c]);
+    most = std::max(most, s[c]);
+  }
+  if (least < -ds && most > ds) return {Passage::Misses};
+  if (!(least > ds || most < -ds)) return {Passage::Doubtful};
+  // Weights of corners 0, 1, 2.
+  const double w2 = s[0], w0 = s[1];
+  const double w1 = count == 3 ? s[2] : ux[2] * uy[0] - uy[2] * ux[0];
+  Crossing out{Passage::Crosses};
+  out.s = w0 + w1 + w2;
+  out.s_error = 3 * ds + 12 * kUlp * u * u;
+  if (std::abs(out.s) <= out.s_error) return {Passage::Doubtful};
+  out.n = w0 * vk[0] + w1 * vk[1] + w2 * vk[2];
+  out.n_error = 3 * v * ds + 32 * kUlp * u * u * v + kUnderflow;
+  const double flip = (out.s > 0) == (line.d[2] > 0) ? 1 : -1;
+  const double na = flip * out.n;
+  out.past_a = na > out.n_error ? 1 : na < -out.n_error ? -1 : 0;
+  double largest = 0, nb = 0;
+  const double w[3] = {w0, w1, w2};
+  for (int c = 0; c < 3; ++c) {
+    const double vb = points[c][k] - line.b[2];
+    largest = std::max(largest, std::abs(vb));
+    nb += w[c] * vb;
+  }
+  nb *= flip;
+  const double nb_error = 3 * largest * ds + 32 * kUlp * u * u * largest + kUnderflow;
+  out.past_b = nb > nb_error ? 1 : nb < -nb_error ? -1 : 0;
+  return out;
+}
+
+// By the open segment ab; Doubtful if perhaps at an end of it.
+Passage of_segment(const Crossing& c) {
+  if (c.line != Passage::Crosses) return c.line;
+  if (c.past_a > 0 && c.past_b < 0) return Passage::Crosses;
+  if (c.past_a < 0 || c.past_b > 0) return Passage::Misses;
+  return Passage::Doubtful;
+}
+
+// A part of a line in Embree's coordinates: ray parameter 0 is t0, 1 is t1.
+struct FloatRay {
+  enum { Outside, Inside, TooFar } where;
+  RTCRay ray;
+};
+
+}  // namespace
+
+struct OcclusionIndex::Impl {
+  explicit Impl(const Scene& scene_);
+  ~Impl();
+
+  const Scene& scene;
+  std::vector<Item> items;
+  std::vector<Triple> points;          // of the items
+  std::vector<std::uint32_t> item_of;  // of Embree's triangles
+  Point center;
+  double scale = 1;  // a power of two
+  Bvh bvh;           // over faces
+  RTCDevice device = nullptr;
+  RTCScene triangles = nullptr, boxes = nullptr;
+
+  void add_items();
+  void choose_frame();
+  void build_triangles();
+  void build_boxes();
+
+  // What an Embree call of ours carries.
+  struct Query {
+    RTCIntersectContext context;  // first: Embree hands out its address
+    const Impl* self;
+    const Line* line;
+    bool crossed = false;         // certainly
+    int beyond = 0;               // nearest(): +1 past b, -1 before a
+    bool whole_line = false;      // faces(): whatever meets the line is wanted
+    std::vector<int>* faces;
+  };
+
+  [[nodiscard]] std::span<const Triple> item_points(const Item& item) const {
+    return {points.data() + item.first, item.count};
+  }
+  [[nodiscard]] Crossing crossing(const Line& line, std::uint32_t item) const {
+    const Item& it = items[item];
+    return certify(line, points.data() + it.first, it.count);
+  }
+  [[nodiscard]] FloatRay float_ray(const Point& a, const Point& b, double t0,
+                                   double t1) const;
+  void init(Query& query, const Line& line) const;
+  [[nodiscard]] double nearest(const Point& a, const Point& b, int beyond) const;
+  [[nodiscard]] std::vector<int> faces_near(const Point& a, const Point& b, double t0,
+                                            double t1) const;
+  [[nodiscard]] std::optional<bool> is_free_for_certain(const Point& a, const Point& b,
+                                                        std::vector<int>& doubtful) const;
+};
+
+OcclusionIndex::Impl::Impl(const Scene& scene_)
+    : scene(scene_), bvh([&] {
+        std::vector<Box> boxes_of_faces;
+        std::vector<Point> corners;
+        for (std::size_t f = 0; f < scene_.faces().size(); ++f) {
+          corners.clear();
+          for (const int p : scene_.face_points(static_cast<int>(f))) {
+            corners.push_back(scene_.point(p));
+          }
+          boxes_of_faces.push_back(internal::box_of(corners));
+        }
+        return Bvh(boxes_of_faces);
+      }()) {
+  add_items();
+  choose_frame();
+  device = rtcNewDevice(nullptr);
+  build_triangles();
+  build_boxes();
+}
+
+OcclusionIndex::Impl::~Impl() {
+  rtcReleaseScene(triangles);
+  rtcReleaseScene(boxes);
+  rtcReleaseDevice(device);
+}
+
+void OcclusionIndex::Impl::add_items() {
+  const auto add = [&](int face, std::initializer_list<int> some,
+                       std::span<const int> all) {
+    const std::span<const int> ids =
+        all.empty() ? std::span<const int>(some.begin(), some.size()) : all;
+    items.push_back({face, static_cast<std::uint32_t>(points.size()),
+                     static_cast<std::uint32_t>(ids.size())});
+    for (const int p : ids) {
+      const Point& x = scene.point(p);
+      points.push_back({x[0], x[1], x[2]});
+    }
+  };
+  for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
+    const auto ids = scene.face_points(f);
+    if (ids.size() == 3 ||
+        (ids.size() <= 8 && scene.facets()[scene.faces()[f].facet].planar)) {
+      add(f, {}, ids);
+    } else {
+      for (std::size_t i = 1; i + 1 < ids.size(); ++i) {
+        add(f, {ids[0], ids[i], ids[i + 1]}, {});
+      }
+    }
+  }
+}
+
+void OcclusionIndex::Impl::choose_frame() {
+  const auto& [low, high] = scene.bounds();
+  center = low + (high - low) / 2;
+  const double half = std::max((high - center).maxCoeff(), (center - low).maxCoeff());
+  int exponent = 0;
+  std::frexp(half, &exponent);
+  scale = half > 0 ? std::ldexp(1.0, -exponent) : 1;
+}
+
+void OcclusionIndex::Impl::build_triangles() {
+  triangles = rtcNewScene(device);
+  rtcSetSceneFlags(triangles, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(triangles, RTC_BUILD_QUALITY_HIGH);
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+  std::size_t count = 0;
+  for (const Item& item : items) count += item.count - 2;
+  auto* const vertices = static_cast<float*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                              3 * sizeof(float), points.size()));
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    for (int i = 0; i < 3; ++i) {
+      vertices[3 * p + i] = static_cast<float>((points[p][i] - center[i]) * scale);
+    }
+  }
+  auto* indices = static_cast<unsigned*>(
+      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                              3 * sizeof(unsigned), count));
+  item_of.reserve(count);
+  for (std::uint32_t n = 0; n < items.size(); ++n) {
+    for (std::uint32_t i = 1; i + 1 < items[n].count; ++i) {
+      *indices++ = items[n].first;
+      *indices++ = items[n].first + i;
+      *indices++ = items[n].first + i + 1;
+      item_of.push_back(n);
+    }
+  }
+  rtcSetGeometryUserData(geometry, this);
+  rtcSetGeometryOccludedFilterFunction(
+      geometry, [](const RTCFilterFunctionNArguments* args) {
+        assert(args->N == 1);
+        auto& query = *reinterpret_cast<Query*>(args->context);
+        const auto item = query.self->item_of[RTCHitN_primID(args->hit, 1, 0)];
+        if (of_segment(query.self->crossing(*query.line, item)) == Passage::Crosses) {
+          query.crossed = true;
+        } else {
+          args->valid[0] = 0;
+        }
+      });
+  rtcSetGeometryIntersectFilterFunction(
+      geometry, [](const RTCFilterFunctionNArguments* args) {
+        assert(args->N == 1);
+        const auto& query = *reinterpret_cast<const Query*>(args->context);
+        const auto item = query.self->item_of[RTCHitN_primID(args->hit, 1, 0)];
+        const Crossing c = query.self->crossing(*query.line, item);
+        const bool wanted = c.line == Passage::Crosses &&
+                            (query.beyond > 0 ? c.past_b > 0 : c.past_a < 0);
+        if (!wanted) args->valid[0] = 0;
+      });
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(triangles, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(triangles);
+}
+
+void OcclusionIndex::Impl::build_boxes() {
+  boxes = rtcNewScene(device);
+  rtcSetSceneFlags(boxes, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneBuildQuality(boxes, RTC_BUILD_QUALITY_HIGH);
+  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(items.size()));
+  rtcSetGeometryUserData(geometry, this);
+  rtcSetGeometryBoundsFunction(
+      geometry,
+      [](const RTCBoundsFunctionArguments* args) {
+        const auto& self = *static_cast<const Impl*>(args->geometryUserPtr);
+        std::array<float, 3> low, high;
+        low.fill(std::numeric_limits<float>::infinity());
+        high.fill(-std::numeric_limits<float>::infinity());
+        for (const Triple& p : self.item_points(self.items[args->primID])) {
+          for (int i = 0; i < 3; ++i) {
+            const auto x = static_cast<float>((p[i] - self.center[i]) * self.scale);
+            low[i] = std::min(low[i], x - kInflation);
+            high[i] = std::max(high[i], x + kInflation);
+          }
+        }
+        RTCBounds& out = *args->bounds_o;
+        out.lower_x = low[0];
+        out.lower_y = low[1];
+        out.lower_z = low[2];
+        out.upper_x = high[0];
+        out.upper_y = high[1];
+        out.upper_z = high[2];
+      },
+      nullptr);
+  rtcSetGeometryOccludedFunction(geometry, [](const RTCOccludedFunctionNArguments* args) {
+    assert(args->N == 1);
+    if (!args->valid[0]) return;
+    auto& query = *reinterpret_cast<Query*>(args->context);
+    const Crossing c = query.self->crossing(*query.line, args->primID);
+    if (c.line == Passage::Misses) return;
+    if (!query.whole_line) {
+      switch (of_segment(c)) {
+        case Passage::Misses: return;
+        case Passage::Crosses:
+          query.crossed = true;
+          RTCRayN_tfar(args->ray, 1, 0) = -std::numeric_limits<float>::infinity();
+          return;
+        case Passage::Doubtful: break;
+      }
+    }
+    query.faces->push_back(query.self->items[args->primID].face);
+  });
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(boxes, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(boxes);
+}
+
+// The part [t0, t1] of the line a + t (b - a), cut to a box a little larger than the
+// scene's.
+FloatRay OcclusionIndex::Impl::float_ray(const Point& a, const Point& b, double t0,
+                                         double t1) const {
+  FloatRay out;
+  const Point p = (a - center) * scale;
+  const Point d = (b - a) * scale;
+  Point from = p, along = d;
+  if (!(t0 == 0 && t1 == 1 && p.cwiseAbs().maxCoeff() <= 2 &&
+        (p + d).cwiseAbs().maxCoeff() <= 2)) {
+    out.where = FloatRay::TooFar;
+    if (!(p.cwiseAbs().maxCoeff() < kFar) || !(d.cwiseAbs().maxCoeff() < kFar) ||
+        !(d.cwiseAbs().maxCoeff() > 1e-100)) {
+      return out;
+    }
+    // Rounding moves points within kFar by far less than the slack of 1/2 here.
+    constexpr double kHalf = 1.5;
+    for (int i = 0; i < 3; ++i) {
+      if (std::abs(d[i]) < 1e-30) {
+        // Over t up to kFar / |d| this coordinate hardly changes.
+        if (std::abs(p[i]) > kHalf) t1 = -kInfinity;
+        continue;
+      }
+      const double at_low = (-kHalf - p[i]) / d[i], at_high = (kHalf - p[i]) / d[i];
+      t0 = std::max(t0, std::min(at_low, at_high));
+      t1 = std::min(t1, std::max(at_low, at_high));
+    }
+    if (!(t0 <= t1)) {
+      out.where = FloatRay::Outside;
+      return out;
+    }
+    from = p + t0 * d;
+    along = (t1 - t0) * d;
+  }
+  out.where = FloatRay::Inside;
+  out.ray.org_x = static_cast<float>(from[0]);
+  out.ray.org_y = static_cast<float>(from[1]);
+  out.ray.org_z = static_cast<float>(from[2]);
+  out.ray.dir_x = static_cast<float>(along[0]);
+  out.ray.dir_y = static_cast<float>(along[1]);
+  out.ray.dir_z = static_cast<float>(along[2]);
+  out.ray.tnear = 0;
+  out.ray.tfar = 1;
+  out.ray.time = 0;
+  out.ray.mask = ~0u;
+  out.ray.id = 0;
+  out.ray.flags = 0;
+  return out;
+}
+
+void OcclusionIndex::Impl::init(Query& query, const Line& line) const {
+  rtcInitIntersectContext(&query.context);
+  query.self = this;
+  query.line = &line;
+}
+
+// The answer where double arithmetic can certify it; else the faces that the closed
+// segment perhaps meets, one entry per item.
+std::optional<bool> OcclusionIndex::Impl::is_free_for_certain(
+    const Point& a, const Point& b, std::vector<int>& doubtful) const {
+  const Line line(a, b);
+  Query query;
+  init(query, line);
+  query.faces = &doubtful;
+  FloatRay r = float_ray(a, b, 0, 1);
+  if (r.where == FloatRay::Outside) return true;
+  if (r.where == FloatRay::TooFar) {
+    for (std::uint32_t n = 0; n < items.size() && !query.crossed; ++n) {
+      const Passage passage = of_segment(crossing(line, n));
+      if (passage == Passage::Crosses) query.crossed = true;
+      if (passage == Passage::Doubtful) doubtful.push_back(items[n].face);
+    }
+  } else {
+    RTCRay again = r.ray;
+    rtcOccluded1(triangles, &query.context, &r.ray);
+    if (!query.crossed) rtcOccluded1(boxes, &query.context, &again);
+  }
+  if (query.crossed) return false;
+  if (doubtful.empty()) return true;
+  return std::nullopt;
+}
+
+// Faces that the part [t0, t1] of the line perhaps meets, ascending.
+std::vector<int> OcclusionIndex::Impl::faces_near(const Point& a, const Point& b,
+                                                  double t0, double t1) const {
+  const Line line(a, b);
+  std::vector<int> out;
+  Query query;
+  init(query, line);
+  query.whole_line = true;
+  query.faces = &out;
+  FloatRay r = float_ray(a, b, t0, t1);
+  if (r.where == FloatRay::TooFar) {
+    for (std::uint32_t n = 0; n < items.size(); ++n) {
+      if (crossing(line, n).line != Passage::Misses) out.push_back(items[n].face);
+    }
+  } else if (r.where == FloatRay::Inside) {
+    rtcOccluded1(boxes, &query.context, &r.ray);
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
+// A bound on the first position past b (beyond > 0) or the last before a at which a face
+// certainly blocks: the blocker is between it and the segment.  Infinite when Embree
+// knows of none.
+double OcclusionIndex::Impl::nearest(const Point& a, const Point& b, int beyond) const {
+  const double none = beyond > 0 ? kInfinity : -kInfinity;
+  const Line line(a, b);
+  // The direction of the ray runs away from the segment.
+  const FloatRay r = beyond > 0 ? float_ray(a, b, 1, kInfinity)
+                                : float_ray(b, a, 1, kInfinity);
+  if (r.where != FloatRay::Inside) return none;
+  Query query;
+  init(query, line);
+  query.beyond = beyond;
+  RTCRayHit hit;
+  hit.ray = r.ray;
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(triangles, &query.context, &hit);
+  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return none;
+  const Crossing c = crossing(line, item_of[hit.hit.primID]);
+  // |t| <= (|n| + dn) / (|s| - ds) / |d_k|, with room for the roundings of this line and
+  // of d_k.
+  const double t = (std::abs(c.n) + c.n_error) / (std::abs(c.s) - c.s_error) /
+                   std::abs(line.d[2]) * (1 + 16 * kUlp);
+  return beyond > 0 ? t : -t;
+}
+
+OcclusionIndex::OcclusionIndex(const Scene& scene)
+    : impl_(std::make_unique<Impl>(scene)) {}
+OcclusionIndex::~OcclusionIndex() = default;
+OcclusionIndex::OcclusionIndex(OcclusionIndex&&) noexcept = default;
+
+namespace {
+
+std::vector<int> unique_sorted(std::vector<int> faces) {
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
+// A contact of the line as the part [lo, hi] of it sees it.
+Contact clipped(const LineScan& scan, int c, const Rational& lo, const Rational& hi) {
+  const Rational& from = std::max(scan.from(c), lo);
+  const Rational& to = std::min(scan.to(c), hi);
+  const bool within = scan.to(c) > lo && scan.from(c) < hi;
+  return {CGAL::to_double(from), CGAL::to_double(to),
+          within ? scan.blocked_between(c, lo, hi) : scan.blocked(c), scan.touches(c)};
+}
+
+}  // namespace
+
+bool OcclusionIndex::is_free(const Point& a, const Point& b) const {
+  if (a == b) return true;
+  std::vector<int> doubtful;
+  if (const auto certain = impl_->is_free_for_certain(a, b, doubtful)) return *certain;
+  const LineScan scan(impl_->scene, unique_sorted(std::move(doubtful)), a, b);
+  for (int c = 0; c < scan.size(); ++c) {
+    if (scan.to(c) <= 0 || scan.from(c) >= 1) continue;
+    if (scan.blocked_between(c, 0, 1)) return false;
+  }
+  return true;
+}
+
+std::vector<Contact> OcclusionIndex::contacts(const Point& a, const Point& b) const {
+  std::vector<Contact> out;
+  if (a == b) return out;
+  const LineScan scan(impl_->scene, impl_->faces_near(a, b, 0, 1), a, b);
+  for (int c = 0; c < scan.size(); ++c) {
+    if (scan.to(c) < 0 || scan.from(c) > 1) continue;
+    out.push_back(clipped(scan, c, 0, 1));
+  }
+  return out;
+}
+
+std::optional<Contact> OcclusionIndex::first_blocker(const Point& a,
+                                                     const Point& b) const {
+  if (a == b) return std::nullopt;
+  const LineScan scan(impl_->scene, impl_->faces_near(a, b, 0, 1), a, b);
+  for (int c = 0; c < scan.size(); ++c) {
+    if (scan.to(c) <= 0 || scan.from(c) >= 1) continue;
+    Contact contact = clipped(scan, c, 0, 1);
+    if (contact.blocked) return contact;
+  }
+  return std::nullopt;
+}
+
+namespace {
+
+// One end of a maximal free segment: where, and the contact that blocks there.
+struct End {
+  std::optional<Rational> t;  // none: infinite
+  int contact = -1;
+};
+
+// The farthest end beyond 1 such that nothing blocks between 0 and it.
+End forward_end(const LineScan& scan) {
+  for (int c = 0; c < scan.size(); ++c) {
+    if (scan.to(c) < 1) continue;
+    if (!scan.blocked_between(c, 0, scan.to(c) + 1)) continue;
+    Rational end = std::max(scan.from(c), Rational(1));
+    for (const Rational& t : scan.instants(c)) {
+      if (t > end && !scan.blocked_between(c, 0, t)) end = t;
+    }
+    return {end, c};
+  }
+  return {};
+}
+
+End backward_end(const LineScan& scan) {
+  for (int c = scan.size() - 1; c >= 0; --c) {
+    if (scan.from(c) > 0) continue;
+    if (!scan.blocked_between(c, scan.from(c) - 1, 1)) continue;
+    Rational end = std::min(scan.to(c), Rational(0));
+    for (const Rational& t : scan.instants(c)) {
+      if (t < end && !scan.blocked_between(c, t, 1)) end = t;
+    }
+    return {end, c};
+  }
+  return {};
+}
+
+// A contact along all of the segment can let it grow on either side but not on both.  Of
+// the ends possible then, the pair farthest apart is taken, of equals the one that reaches
+// farther past b.
+void reconcile(const LineScan& scan, int c, End& back, End& forth) {
+  const auto limit = [&](const End& end, const Rational& outside) {
+    return end.t && scan.from(c) <= *end.t && *end.t <= scan.to(c) ? *end.t : outside;
+  };
+  const Rational lowest = limit(back, scan.from(c) - 1);
+  const Rational highest = limit(forth, scan.to(c) + 1);
+  if (!scan.blocked_between(c, lowest, highest)) return;
+  std::vector<Rational> lows = {lowest, Rational(0)}, highs = {Rational(1), highest};
+  for (const Rational& t : scan.instants(c)) {
+    if (lowest < t && t < 0) lows.push_back(t);
+    if (1 < t && t < highest) highs.push_back(t);
+  }
+  Rational best_low = 0, best_high = 1;
+  for (const Rational& low : lows) {
+    for (const Rational& high : highs) {
+      const Rational gain = Rational(high - low) - Rational(best_high - best_low);
+      if (gain < 0 || (gain == 0 && high <= best_high)) continue;
+      if (scan.blocked_between(c, low, high)) continue;
+      best_low = low;
+      best_high = high;
+    }
+  }
+  if (best_low != lowest) back = {best_low, c};
+  if (best_high != highest) forth = {best_high, c};
+}
+
+}  // namespace
+
+std::optional<FreeSegment> OcclusionIndex::maximal_free_segment(const Point& a,
+                                                                const Point& b) const {
+  assert(a != b);
+  if (!is_free(a, b)) return std::nullopt;
+  const double lowest = impl_->nearest(a, b, -1), highest = impl_->nearest(a, b, 1);
+  const LineScan scan(impl_->scene, impl_->faces_near(a, b, lowest, highest), a, b);
+  End back = backward_end(scan), forth = forward_end(scan);
+  for (int c = 0; c < scan.size(); ++c) {
+    if (scan.from(c) <= 0 && scan.to(c) >= 1) reconcile(scan, c, back, forth);
+  }
+  FreeSegment out{-kInfinity, kInfinity, {}, {}, {}};
+  if (back.t) {
+    out.from = CGAL::to_double(*back.t);
+    out.from_faces = scan.faces_at(back.contact, *back.t);
+  }
+  if (forth.t) {
+    out.to = CGAL::to_double(*forth.t);
+    out.to_faces = scan.faces_at(forth.contact, *forth.t);
+  }
+  for (int c = 0; c < scan.size(); ++c) {
+    const Rational low = back.t ? *back.t : Rational(scan.from(c) - 1);
+    const Rational high = forth.t ? *forth.t : Rational(scan.to(c) + 1);
+    if (scan.to(c) > low && scan.from(c) < high) {
+      out.contacts.push_back(clipped(scan, c, low, high));
+    }
+  }
+  return out;
+}
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+Kernel::Point_3 kernel_point(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+// Whether a box is certainly apart from the triangle: by its own sides, by the triangle's
+// plane, and by the triangle's sides seen along each axis.
+class TriangleShaft {
+ public:
+  explicit TriangleShaft(const std::array<Point, 3>& corners)
+      : corners_(corners), box_(internal::box_of(corners)) {
+    normal_ = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+  }
+
+  [[nodiscard]] bool may_meet(const Box& box) const {
+    for (int i = 0; i < 3; ++i) {
+      if (box.min[i] > box_.max[i] || box.max[i] < box_.min[i]) return false;
+    }
+    return !beside_plane(box) && !beside_sides(box);
+  }
+
+ private:
+  // n.(x - corner) over the box, n within 4 ulp of |e1||e2| per coordinate.
+  [[nodiscard]] bool beside_plane(const Box& box) const {
+    double least = 0, most = 0, size = 0;
+    for (int i = 0; i < 3; ++i) {
+      const double low = box.min[i] - corners_[0][i], high = box.max[i] - corners_[0][i];
+      const double p = normal_[i] * low, q = normal_[i] * high;
+      least += std::min(p, q);
+      most += std::max(p, q);
+      size += std::max(std::abs(low), std::abs(high));
+    }
+    const Point e1 = corners_[1] - corners_[0], e2 = corners_[2] - corners_[0];
+    const double bound = 32 * kUlp * size * 2 * e1.cwiseAbs().maxCoeff() *
+                             e2.cwiseAbs().maxCoeff() +
+                         kUnderflow;
+    return least > bound || most < -bound;
+  }
+
+  [[nodiscard]] bool beside_sides(const Box& box) const {
+    for (int axis = 0; axis < 3; ++axis) {
+      const int i = (axis + 1) % 3, j = (axis + 2) % 3;
+      const double turn = normal_[axis] > 0 ? 1 : -1;
+      for (int c = 0; c < 3; ++c) {
+        const Point& p = corners_[c];
+        const Point& q = corners_[(c + 1) % 3];
+        const Point& r = corners_[(c + 2) % 3];
+        // Outward normal of side pq: the triangle is where (x - p).m <= 0.
+        const double mi = turn * (q[j] - p[j]), mj = -turn * (q[i] - p[i]);
+        const double li = (mi > 0 ? box.min[i] : box.max[i]) - p[i];
+        const double lj = (mj > 0 ? box.min[j] : box.max[j]) - p[j];
+        const double bound =
+            8 * kUlp * (std::abs(mi * li) + std::abs(mj * lj)) + kUnderflow;
+        if (mi * li + mj * lj <= bound) continue;
+        // The third corner must be certainly on the other side, or the turn may be wrong.
+        const double ri = r[i] - p[i], rj = r[j] - p[j];
+        if (mi * ri + mj * rj <=
+            -8 * kUlp * (std::abs(mi * ri) + std::abs(mj * rj)) - kUnderflow) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  std::array<Point, 3> corners_;
+  Box box_;
+  Point normal_;
+};
+
+}  // namespace
+
+std::vector<int> OcclusionIndex::faces_meeting_triangle(const Point& a, const Point& b,
+                                                        const Point& c) const {
+  const Scene& scene = impl_->scene;
+  const TriangleShaft shaft({a, b, c});
+  const Kernel::Point_3 p = kernel_point(a), q = kernel_point(b), r = kernel_point(c);
+  const bool flat = CGAL::collinear(p, q, r);
+  // A triangle without area is its longest side, or a point.
+  const auto [low, high] = std::minmax({p, q, r});
+  const auto meets = [&](const Kernel::Triangle_3& t) {
+    if (!flat) return CGAL::do_intersect(t, Kernel::Triangle_3(p, q, r));
+    if (low == high) return t.has_on(low);
+    return CGAL::do_intersect(t, Kernel::Segment_3(low, high));
+  };
+  std::vector<int> out;
+  impl_->bvh.traverse(
+      [&](const Box& box) { return shaft.may_meet(box); },
+      [&](std::uint32_t f) {
+        const auto ids = scene.face_points(static_cast<int>(f));
+        for (std::size_t i = 1; i + 1 < ids.size(); ++i) {
+          const Kernel::Triangle_3 t(kernel_point(scene.point(ids[0])),
+                                     kernel_point(scene.point(ids[i])),
+                                     kernel_point(scene.point(ids[i + 1])));
+          if (t.is_degenerate() || !meets(t)) continue;
+          out.push_back(static_cast<int>(f));
+          break;
+        }
+      });
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+}  // namespace sightline
