@@ -17,12 +17,18 @@ if(internal)
   message(FATAL_ERROR "internal headers were installed: ${internal}")
 endif()
 
+set(with_viewers OFF)
+if(EXISTS ${WORK_DIR}/prefix/bin/sightline)
+  set(with_viewers ON)
+  run(${WORK_DIR}/prefix/bin/sightline --version)
+endif()
+
 set(flags "")
 if(SANITIZE)
-  set(flags -D CMAKE_CXX_FLAGS=-fsanitize=${SANITIZE})
+  set(flags -D CMAKE_C_FLAGS=-fsanitize=${SANITIZE} -D CMAKE_CXX_FLAGS=-fsanitize=${SANITIZE})
 endif()
 run(${CMAKE_COMMAND} -S ${PROJECT_DIR} -B ${WORK_DIR}/build -G ${GENERATOR}
     -D CMAKE_CXX_COMPILER=${COMPILER} -D CMAKE_BUILD_TYPE=${CONFIG}
-    -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix ${flags})
+    -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D WITH_VIEWERS=${with_viewers} ${flags})
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build --config ${CONFIG})
 run(${CMAKE_CTEST_COMMAND} --test-dir ${WORK_DIR}/build --output-on-failure -C ${CONFIG})
