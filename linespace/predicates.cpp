@@ -1,5 +1,9 @@
 #include "linespace/predicates.h"
 
+#ifdef __SSE2__
+#include <emmintrin.h>
+#endif
+
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -143,17 +147,11 @@ namespace {
 // The first stage's values; each |value - exact| <= error.
 Crossing<BoundedValue> double_crossing(const LineThrough& edge, const PlaneThrough& p) {
   const Minors n = minors(p.a.data(), p.b.data(), p.c.data());
-  const auto triple_product = [&n](const Point3& to, const Point3& from) -> BoundedValue {
-    const double w0 = to.data()[0] - from.data()[0];
-    const double w1 = to.data()[1] - from.data()[1];
-    const double w2 = to.data()[2] - from.data()[2];
-    const double permanent = std::abs(w0) * n.permanent[0] +
-                             std::abs(w1) * n.permanent[1] +
-                             std::abs(w2) * n.permanent[2];
-    return {w0 * n.value[0] + w1 * n.value[1] + w2 * n.value[2],
-            kTripleProductBound * permanent};
+  const auto bounded = [&n](const Point3& to, const Point3& from) -> BoundedValue {
+    const auto v = triple_product(n, to.data(), from.data());
+    return {v.value, kTripleProductBound * v.permanent};
   };
-  return {triple_product(edge.from, p.a), triple_product(edge.to, edge.from)};
+  return {bounded(edge.from, p.a), bounded(edge.to, edge.from)};
 }
 
 struct DoubleComparison {
@@ -254,10 +252,12 @@ constexpr double kMinorBound = (4 + 32 * kUnit) * kUnit;
 
 std::optional<bool> double_collinear(const Point3& a, const Point3& b, const Point3& c) {
   const Minors n = minors(a.data(), b.data(), c.data());
+  const double value[] = {n.value01[0], n.value01[1], n.component2[0]};
+  const double permanent[] = {n.permanent01[0], n.permanent01[1], n.component2[1]};
   bool all_zero = true;
   for (int i = 0; i < 3; ++i) {
-    if (std::abs(n.value[i]) > kMinorBound * n.permanent[i]) return false;
-    all_zero &= n.permanent[i] == 0;
+    if (std::abs(value[i]) > kMinorBound * permanent[i]) return false;
+    all_zero &= permanent[i] == 0;
   }
   if (all_zero) return true;
   return std::nullopt;
@@ -315,45 +315,77 @@ bool collinear(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                            [&] { return integer_collinear<6>(a, b, c); });
 }
 
-// Blocks that stay in the first-level cache: values and bounds first, then signs, then,
-// if some point of the block was undecided, those points once more through all stages.
+namespace {
+
+using internal::Pair;
+
+// Bit 0 and 1: the sign bits of the lanes.
+int sign_bits(Pair x) {
+#ifdef __SSE2__
+  return _mm_movemask_pd(x);
+#else
+  return (std::signbit(x[0]) ? 1 : 0) | (std::signbit(x[1]) ? 2 : 0);
+#endif
+}
+
+// The signs of four values as they lie in memory, by 16 * (bit i: value i is certain) +
+// (bit i: value i is negative); uncertain ones are Zero.
+constexpr auto kFourSigns = [] {
+  std::array<std::array<Sign, 4>, 256> table{};
+  for (int index = 0; index < 256; ++index) {
+    for (int i = 0; i < 4; ++i) {
+      const bool certain = (index >> (4 + i) & 1) != 0;
+      const bool negative = (index >> i & 1) != 0;
+      table[index][i] = !certain   ? Sign::Zero
+                        : negative ? Sign::Negative
+                                   : Sign::Positive;
+    }
+  }
+  return table;
+}();
+
+}  // namespace
+
+// Four points at a time, in two pairs; what the first stage leaves open among the four
+// goes through the single predicate, as does the rest at the end.
 void orient3d_batch(const PlaneThrough& plane, std::span<const double> x,
                     std::span<const double> y, std::span<const double> z,
                     std::span<Sign> signs) {
+  using namespace internal;
   assert(x.size() == y.size() && x.size() == z.size() && x.size() == signs.size());
   const PlaneSide on(plane);
-  constexpr std::size_t kBlock = 64;
-  const double a0 = plane.a[0], a1 = plane.a[1], a2 = plane.a[2];
-  const double n0 = on.normal_[0], n1 = on.normal_[1], n2 = on.normal_[2];
-  const double e0 = on.weight_[0], e1 = on.weight_[1], e2 = on.weight_[2];
-  for (std::size_t first = 0; first < x.size(); first += kBlock) {
-    const std::size_t count = std::min(kBlock, x.size() - first);
-    const double* px = x.data() + first;
-    const double* py = y.data() + first;
-    const double* pz = z.data() + first;
-    std::int8_t out[kBlock];
-    std::int8_t unsure[kBlock];
-    for (std::size_t i = 0; i < count; ++i) {
-      const double w0 = px[i] - a0, w1 = py[i] - a1, w2 = pz[i] - a2;
-      const double v = w0 * n0 + w1 * n1 + w2 * n2;
-      const double error = std::abs(w0) * e0 + std::abs(w1) * e1 + std::abs(w2) * e2;
-      out[i] = static_cast<std::int8_t>((v > error) - (v < -error));
-      unsure[i] = static_cast<std::int8_t>((std::abs(v) <= error) & (error != 0));
-    }
-    std::uint64_t undecided = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-      signs[first + i] = static_cast<Sign>(out[i]);
-      undecided += unsure[i];
-    }
-    internal::stage_counts.by_double += count - undecided;
-    if (undecided == 0) continue;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (unsure[i] == 0) continue;
-      const Eigen::Vector3d p(px[i], py[i], pz[i]);
-      signs[first + i] =
-          internal::decide_orient3d(plane.a, plane.b, plane.c, p, on.value(p).value);
-    }
+  const Minors& n = on.normal_;
+  const Pair a0 = both(plane.a[0]), a1 = both(plane.a[1]), a2 = both(plane.a[2]);
+  const Pair n0 = both(n.value01[0]), n1 = both(n.value01[1]), n2 = both(n.component2[0]);
+  const Pair e0 = both(n.permanent01[0]), e1 = both(n.permanent01[1]),
+             e2 = both(n.component2[1]);
+  const auto pair_at = [&](std::size_t i) {
+    const Pair w0 = load_pair(&x[i]) - a0;
+    const Pair w1 = load_pair(&y[i]) - a1;
+    const Pair w2 = load_pair(&z[i]) - a2;
+    const Pair value = (w0 * n0 + w1 * n1) + w2 * n2;
+    const Pair error = (absolute(w0) * e0 + absolute(w1) * e1) + absolute(w2) * e2;
+    const auto certain = reinterpret_cast<Pair>(absolute(value) > error);
+    return std::array{sign_bits(value), sign_bits(certain)};
+  };
+  std::size_t singly = 0;
+  std::size_t i = 0;
+  for (; i + 4 <= x.size(); i += 4) {
+    const auto [negative, certain] = pair_at(i);
+    const auto [negative_up, certain_up] = pair_at(i + 2);
+    const int all_certain = certain | certain_up << 2;
+    std::memcpy(&signs[i], &kFourSigns[negative | negative_up << 2 | all_certain << 4],
+                4 * sizeof(Sign));
+    if (all_certain == 15) [[likely]]
+      continue;
+    for (std::size_t j = i; j < i + 4; ++j)
+      if (signs[j] == Sign::Zero) {
+        ++singly;
+        signs[j] = on(Eigen::Vector3d(x[j], y[j], z[j]));
+      }
   }
+  stage_counts.by_double += i - singly;  // operator() counts its own
+  for (; i < x.size(); ++i) signs[i] = on(Eigen::Vector3d(x[i], y[i], z[i]));
 }
 
 PrecisionScope::PrecisionScope(Precision precision)

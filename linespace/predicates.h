@@ -14,8 +14,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
 #include <span>
@@ -88,15 +90,30 @@ struct BoundedValue {
                                           const Eigen::Vector3d& c,
                                           const Eigen::Vector3d& d);
 
-/// A plane prepared for many points: plane(p) == orient3d(a, b, c, p), at about a third
-/// of the cost.  Cheap to build (no allocation), a value.
+namespace internal {
+
+// Two doubles in one register (SSE2 on any x86-64), by the vector extension that g++ and
+// clang share.
+using Pair [[gnu::vector_size(16)]] = double;
+
+// (b - a) x (c - a), rounded, and the sums of absolute values of what was added for it.
+struct Minors {
+  Pair value01, permanent01;  // components 0 and 1
+  Pair component2;            // value, permanent
+};
+
+}  // namespace internal
+
+/// A plane prepared for many points: plane(p) == orient3d(a, b, c, p), at about half the
+/// cost.  Cheap to build (no allocation), a value.
 class PlaneSide {
  public:
   explicit PlaneSide(const PlaneThrough& plane);
   [[nodiscard]] Sign operator()(const Eigen::Vector3d& p) const;
   /// The first stage alone: nullopt when its bound is too weak.  Not counted.
   [[nodiscard]] std::optional<Sign> triage(const Eigen::Vector3d& p) const;
-  /// The value whose sign is asked, as orient3d_value(a, b, c, p) gives it.
+  /// The value whose sign is asked, bounded as by orient3d_value(a, b, c, p), but rounded
+  /// in another order.
   [[nodiscard]] BoundedValue value(const Eigen::Vector3d& p) const;
 
  private:
@@ -104,8 +121,7 @@ class PlaneSide {
                              std::span<const double> y, std::span<const double> z,
                              std::span<Sign> signs);
   PlaneThrough plane_;
-  double normal_[3];  // (b - a) x (c - a), rounded
-  double weight_[3];  // |value - exact| <= sum of weight_[i] |p[i] - a[i]|
+  internal::Minors normal_;  // the permanents already times the bound's constant
 };
 
 /// plane(p_i) for points given as three coordinate arrays of one length; `signs` has that
@@ -148,34 +164,99 @@ namespace internal {
 inline constinit thread_local StageCounts stage_counts{};
 inline constinit thread_local Precision thread_precision = Precision::Exact;
 
-// Let e = 2^-53.  In w . (u x v), with u, v, w differences of coordinates, each of the
-// six terms passes at most 8 roundings: three differences, a product, the difference of a
-// minor, another product, two additions.  So the sum S satisfies
-//     |S - exact| <= ((1 + e)^8 - 1) P,   P the same sum of absolute values, exact,
-// and P in turn is at most its own rounded value / (1 - e)^8.  The constant covers this
-// and the rounding of (constant * P): ((1 + e)^8 - 1) (1 + e) / (1 - e)^8 < 8 e + 128
-// e^2. A compiler that fuses a product into an addition leaves out a rounding, which
-// keeps the bound.  Nothing underflows: differences are 0 or at least 2^-192, since
-// admissible coordinates are multiples of 2^-192; so a product of three is 0 or at least
-// 2^-576. For the same reason P == 0 only if all six terms are 0, and then so is the
-// determinant.
+// Let e = 2^-53.  The determinant of three differences u, v, w is a sum of six terms,
+// each of which passes at most 8 roundings: three differences, two products, three
+// additions (orient3d adds up u2 (v x w) + v2 (w x u) + w2 (u x v) pair by pair,
+// PlaneSide forms the minors u x v first: both have 8).  So the computed value satisfies
+//     |value - exact| <= ((1 + e)^8 - 1) P,   P the same sum of absolute values, exact,
+// and P is at most its own rounded value / (1 - e)^8.  The constant covers this and the
+// rounding of (constant * P):  ((1 + e)^8 - 1) (1 + e) / (1 - e)^8 < 8 e + 128 e^2.
+// A compiler that fuses a product into an addition leaves out a rounding, which keeps the
+// bound.  Nothing underflows: admissible coordinates are multiples of 2^-192, so that
+// differences are 0 or at least that, and products of three 0 or at least 2^-576.  For
+// the same reason P == 0 only if all six terms are 0, and then so is the determinant.
 inline constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 inline constexpr double kTripleProductBound = (8 + 128 * kUnit) * kUnit;
 
-// The normal of a plane, or rather (b - a) x (c - a), and the same with absolute values.
-struct Minors {
-  double value[3];
-  double permanent[3];
-};
+using PairBits [[gnu::vector_size(16)]] = std::int64_t;
+
+[[nodiscard]] inline Pair load_pair(const double* p) {
+  Pair x;
+  std::memcpy(&x, p, sizeof x);
+  return x;
+}
+[[nodiscard]] inline Pair both(double x) { return Pair{x, x}; }
+[[nodiscard]] inline Pair swapped(Pair x) { return __builtin_shufflevector(x, x, 1, 0); }
+[[nodiscard]] inline Pair low(Pair x, Pair y) {
+  return __builtin_shufflevector(x, y, 0, 2);
+}
+[[nodiscard]] inline Pair high(Pair x, Pair y) {
+  return __builtin_shufflevector(x, y, 1, 3);
+}
+[[nodiscard]] inline Pair absolute(Pair x) {
+  return reinterpret_cast<Pair>(reinterpret_cast<PairBits>(x) &
+                                PairBits{INT64_MAX, INT64_MAX});
+}
+[[nodiscard]] inline Pair absolute_high(Pair x) {
+  return reinterpret_cast<Pair>(reinterpret_cast<PairBits>(x) & PairBits{-1, INT64_MAX});
+}
+
 [[nodiscard]] inline Minors minors(const double* a, const double* b, const double* c) {
   const double u0 = b[0] - a[0], u1 = b[1] - a[1], u2 = b[2] - a[2];
   const double v0 = c[0] - a[0], v1 = c[1] - a[1], v2 = c[2] - a[2];
-  const double u1v2 = u1 * v2, u2v1 = u2 * v1;
-  const double u2v0 = u2 * v0, u0v2 = u0 * v2;
+  const Pair x = Pair{u1, u2} * Pair{v2, v0}, y = Pair{u2, u0} * Pair{v1, v2};
   const double u0v1 = u0 * v1, u1v0 = u1 * v0;
-  return {{u1v2 - u2v1, u2v0 - u0v2, u0v1 - u1v0},
-          {std::abs(u1v2) + std::abs(u2v1), std::abs(u2v0) + std::abs(u0v2),
-           std::abs(u0v1) + std::abs(u1v0)}};
+  return {x - y, absolute(x) + absolute(y),
+          Pair{u0v1 - u1v0, std::abs(u0v1) + std::abs(u1v0)}};
+}
+
+// A value that is off by at most kTripleProductBound * permanent.
+struct ValueAndPermanent {
+  double value, permanent;
+};
+
+// (p - q) . normal.
+[[nodiscard]] inline ValueAndPermanent triple_product(const Minors& normal,
+                                                      const double* p, const double* q) {
+  const Pair w01 = load_pair(p) - load_pair(q);
+  const Pair value = w01 * normal.value01;
+  const Pair permanent = absolute(w01) * normal.permanent01;
+  const Pair sum = (low(value, permanent) + high(value, permanent)) +
+                   absolute_high(both(p[2] - q[2])) * normal.component2;
+  return {sum[0], sum[1]};
+}
+
+// det(b - a, c - a, d - a).  In x each lane sums up three of the six terms.
+[[nodiscard]] inline ValueAndPermanent determinant(const double* a, const double* b,
+                                                   const double* c, const double* d) {
+  const Pair a01 = load_pair(a);
+  const Pair u01 = load_pair(b) - a01, v01 = load_pair(c) - a01, w01 = load_pair(d) - a01;
+  const Pair vw = v01 * swapped(w01) * both(b[2] - a[2]);
+  const Pair wu = w01 * swapped(u01) * both(c[2] - a[2]);
+  const Pair uv = u01 * swapped(v01) * both(d[2] - a[2]);
+  const Pair x = (vw + wu) + uv;
+  const Pair y = (absolute(vw) + absolute(wu)) + absolute(uv);
+  return {x[0] - x[1], y[0] + y[1]};
+}
+
+// |value| > error for error >= 0, on the bits, where that order is the same: integer
+// units are idle while others multiply.
+[[nodiscard]] inline bool exceeds(double value, std::uint64_t error_bits) {
+  return std::bit_cast<std::uint64_t>(value) << 1 >> 1 > error_bits;
+}
+// A double at least kTripleProductBound * permanent: 2^-50 = 8 e is 50 off the exponent,
+// and 64 units in the last place are at least a factor 1 + 64 e.  For permanent == 0,
+// wraps to what nothing exceeds.
+[[nodiscard]] inline std::uint64_t error_bits(double permanent) {
+  return std::bit_cast<std::uint64_t>(permanent) - (std::uint64_t{50} << 52) + 64;
+}
+
+[[nodiscard]] inline Sign sign_of(double x) {
+  return static_cast<Sign>(static_cast<int>(x > 0) - static_cast<int>(x < 0));
+}
+// The same but for 0.
+[[nodiscard]] inline Sign sign_of_nonzero(double x) {
+  return static_cast<Sign>((std::bit_cast<std::int64_t>(x) >> 63) | 1);
 }
 
 // Stages after the first; they count which of them decided.  `value` is the first
@@ -184,32 +265,28 @@ struct Minors {
                                    const Eigen::Vector3d& c, const Eigen::Vector3d& d,
                                    double value);
 
-[[nodiscard]] inline Sign sign_of(double x) {
-  return static_cast<Sign>(static_cast<int>(x > 0) - static_cast<int>(x < 0));
-}
-
 }  // namespace internal
 
 inline StageCounts& thread_stage_counts() { return internal::stage_counts; }
 
 inline BoundedValue orient3d_value(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                    const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
-  const auto n = internal::minors(a.data(), b.data(), c.data());
-  const double w0 = d.data()[0] - a.data()[0];
-  const double w1 = d.data()[1] - a.data()[1];
-  const double w2 = d.data()[2] - a.data()[2];
-  const double permanent = std::abs(w0) * n.permanent[0] + std::abs(w1) * n.permanent[1] +
-                           std::abs(w2) * n.permanent[2];
-  return {w0 * n.value[0] + w1 * n.value[1] + w2 * n.value[2],
-          internal::kTripleProductBound * permanent};
+  const auto [value, permanent] =
+      internal::determinant(a.data(), b.data(), c.data(), d.data());
+  return {value, internal::kTripleProductBound * permanent};
 }
 
 inline Sign orient3d(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                      const Eigen::Vector3d& c, const Eigen::Vector3d& d) {
-  const auto [value, error] = orient3d_value(a, b, c, d);
-  if (std::abs(value) > error || error == 0) [[likely]] {
+  const auto [value, permanent] =
+      internal::determinant(a.data(), b.data(), c.data(), d.data());
+  if (internal::exceeds(value, internal::error_bits(permanent))) [[likely]] {
     ++internal::stage_counts.by_double;
-    return internal::sign_of(value);
+    return internal::sign_of_nonzero(value);
+  }
+  if (permanent == 0) {
+    ++internal::stage_counts.by_double;
+    return Sign::Zero;
   }
   return internal::decide_orient3d(a, b, c, d, value);
 }
@@ -218,21 +295,16 @@ inline Sign side(const LineThrough& l, const LineThrough& m) {
   return orient3d(l.from, l.to, m.from, m.to);
 }
 
-inline PlaneSide::PlaneSide(const PlaneThrough& plane) : plane_(plane) {
-  const auto n = internal::minors(plane.a.data(), plane.b.data(), plane.c.data());
-  for (int i = 0; i < 3; ++i) {
-    normal_[i] = n.value[i];
-    weight_[i] = internal::kTripleProductBound * n.permanent[i];
-  }
+inline PlaneSide::PlaneSide(const PlaneThrough& plane)
+    : plane_(plane),
+      normal_(internal::minors(plane.a.data(), plane.b.data(), plane.c.data())) {
+  normal_.permanent01 *= internal::kTripleProductBound;
+  normal_.component2 *= internal::Pair{1, internal::kTripleProductBound};
 }
 
 inline BoundedValue PlaneSide::value(const Eigen::Vector3d& p) const {
-  const double w0 = p.data()[0] - plane_.a.data()[0];
-  const double w1 = p.data()[1] - plane_.a.data()[1];
-  const double w2 = p.data()[2] - plane_.a.data()[2];
-  return {
-      w0 * normal_[0] + w1 * normal_[1] + w2 * normal_[2],
-      std::abs(w0) * weight_[0] + std::abs(w1) * weight_[1] + std::abs(w2) * weight_[2]};
+  const auto v = internal::triple_product(normal_, p.data(), plane_.a.data());
+  return {v.value, v.permanent};
 }
 
 inline std::optional<Sign> PlaneSide::triage(const Eigen::Vector3d& p) const {
@@ -243,9 +315,13 @@ inline std::optional<Sign> PlaneSide::triage(const Eigen::Vector3d& p) const {
 
 inline Sign PlaneSide::operator()(const Eigen::Vector3d& p) const {
   const auto [v, error] = value(p);
-  if (std::abs(v) > error || error == 0) [[likely]] {
+  if (internal::exceeds(v, std::bit_cast<std::uint64_t>(error))) [[likely]] {
     ++internal::stage_counts.by_double;
-    return internal::sign_of(v);
+    return internal::sign_of_nonzero(v);
+  }
+  if (error == 0) {
+    ++internal::stage_counts.by_double;
+    return Sign::Zero;
   }
   return internal::decide_orient3d(plane_.a, plane_.b, plane_.c, p, v);
 }

@@ -21,6 +21,8 @@ inline std::string node_name(NodeKind kind) {
       return "EVE";
     case NodeKind::FvE:
       return "FvE";
+    case NodeKind::Saddle:
+      return "Saddle";
     case NodeKind::Pierce:
       return "Pierce";
     case NodeKind::Degenerate:
