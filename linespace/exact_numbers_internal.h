@@ -58,10 +58,35 @@ template <int N>
   return difference;
 }
 
+// One to three limbs, the narrow case of every predicate, in the machine's own 128 bits.
+[[nodiscard]] inline Int128 as_int128(std::uint64_t low_limb, std::uint64_t high_limb) {
+  return static_cast<Int128>(Uint128(high_limb) << 64 | low_limb);
+}
 [[nodiscard]] inline FixedInt<2> operator*(const FixedInt<1>& a, const FixedInt<1>& b) {
   const Int128 p = Int128(static_cast<std::int64_t>(a.limbs[0])) *
                    static_cast<std::int64_t>(b.limbs[0]);
   return {{static_cast<std::uint64_t>(p), static_cast<std::uint64_t>(p >> 64)}};
+}
+[[nodiscard]] inline FixedInt<2> operator-(const FixedInt<2>& a, const FixedInt<2>& b) {
+  const auto d = Uint128(as_int128(a.limbs[0], a.limbs[1])) -
+                 Uint128(as_int128(b.limbs[0], b.limbs[1]));
+  return {{static_cast<std::uint64_t>(d), static_cast<std::uint64_t>(d >> 64)}};
+}
+[[nodiscard]] inline FixedInt<3> operator*(const FixedInt<1>& a, const FixedInt<2>& b) {
+  const auto x = static_cast<std::int64_t>(a.limbs[0]);
+  const Int128 p0 = Int128(x) * Int128(b.limbs[0]);
+  const Int128 p1 = Int128(x) * static_cast<std::int64_t>(b.limbs[1]);
+  const auto upper = static_cast<Uint128>((p0 >> 64) + p1);
+  return {{static_cast<std::uint64_t>(p0), static_cast<std::uint64_t>(upper),
+           static_cast<std::uint64_t>(upper >> 64)}};
+}
+[[nodiscard]] inline FixedInt<3> operator+(const FixedInt<3>& a, const FixedInt<3>& b) {
+  std::uint64_t lowest;
+  const bool carry = __builtin_add_overflow(a.limbs[0], b.limbs[0], &lowest);
+  const Uint128 upper = Uint128(as_int128(a.limbs[1], a.limbs[2])) +
+                        Uint128(as_int128(b.limbs[1], b.limbs[2])) + carry;
+  return {{lowest, static_cast<std::uint64_t>(upper),
+           static_cast<std::uint64_t>(upper >> 64)}};
 }
 
 // Read as unsigned, a negative operand of N limbs is too large by 2^(64 N): the
