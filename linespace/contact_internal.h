@@ -5,7 +5,7 @@
 
 #pragma once
 
-#include <CGAL/Exact_rational.h>
+#include <boost/multiprecision/gmp.hpp>
 
 #include <array>
 #include <memory>
@@ -17,7 +17,10 @@
 
 namespace sightline::internal {
 
-using Rational = CGAL::Exact_rational;
+/// Not CGAL::Exact_rational, which is another type where gmpxx is installed.
+using Rational =
+    boost::multiprecision::number<boost::multiprecision::gmp_rational,
+                                  boost::multiprecision::et_off>;
 using ExactPoint = std::array<Rational, 3>;
 
 [[nodiscard]] ExactPoint exact_point(const Point& p);

@@ -137,6 +137,11 @@ class Scene {
   [[nodiscard]] std::span<const Facet> facets() const { return facets_; }
   /// The generators: maximal straight edges, flat ones left out.
   [[nodiscard]] std::span<const Edge> edges() const { return edges_; }
+  /// The edge that the side of face f from its corner k to the next lies on; -1 when the
+  /// side is flat.
+  [[nodiscard]] int edge_of_side(int f, int k) const {
+    return side_edges_[faces_[f].first_corner + k];
+  }
   /// Point ids at which some edge() ends, ascending: the vertices that generate events.
   [[nodiscard]] std::span<const int> corners() const { return corner_points_; }
   /// Edge ids that end at point p.
@@ -173,6 +178,7 @@ class Scene {
   std::vector<int> corners_;  // point ids of all faces, face after face
   std::vector<Facet> facets_;
   std::vector<Edge> edges_;
+  std::vector<int> side_edges_;  // per entry of corners_
   std::vector<int> corner_points_;
   // Edges (faces) at point p: positions edge_starts_[p] to edge_starts_[p + 1] of
   // edge_ids_.

@@ -308,15 +308,20 @@ void SceneBuilder::join_edges() {
     i = j;
   }
   std::vector<std::uint8_t> done(mesh_edges.size(), 0);
+  std::vector<int> chain_of(mesh_edges.size(), -1);  // first mesh edge of its chain
+  std::vector<int> first_of_edge;                    // mesh edge, per maximal edge
   for (const int e : candidates) {
     if (done[e]) continue;
     done[e] = 1;
+    chain_of[e] = e;
+    first_of_edge.push_back(e);
     std::array<int, 2> tips{joiner.low(e), joiner.high(e)};
     for (int end = 0; end < 2; ++end) {
       int at = e;
       int p = tips[end];
       for (int f; (f = follower[at][joiner.high(at) == p]) >= 0;) {
         done[f] = 1;
+        chain_of[f] = e;
         p = joiner.other_end(f, p);
         at = f;
       }
@@ -336,9 +341,35 @@ void SceneBuilder::join_edges() {
               });
     scene.edges_.push_back(std::move(edge));
   }
-  std::sort(scene.edges_.begin(), scene.edges_.end(), [](const Edge& a, const Edge& b) {
-    return a.points != b.points ? a.points < b.points : a.object < b.object;
+  std::vector<int> order(scene.edges_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int i, int j) {
+    const Edge &a = scene.edges_[i], &b = scene.edges_[j];
+    if (a.points != b.points) return a.points < b.points;
+    return a.object != b.object ? a.object < b.object : i < j;
   });
+  std::vector<Edge> sorted;
+  sorted.reserve(order.size());
+  std::vector<int> edge_of_chain(mesh_edges.size(), -1);
+  for (const int i : order) {
+    edge_of_chain[first_of_edge[i]] = static_cast<int>(sorted.size());
+    sorted.push_back(std::move(scene.edges_[i]));
+  }
+  scene.edges_ = std::move(sorted);
+  scene.side_edges_.assign(scene.corners_.size(), -1);
+  for (const int e : candidates) {
+    for (const HalfEdge& h : joiner.sides(e)) {
+      const Face& face = scene.faces_[h.face];
+      const int from = h.forward ? h.low : h.high;
+      const int to = h.forward ? h.high : h.low;
+      for (int k = 0; k < face.corner_count; ++k) {
+        if (scene.corners_[face.first_corner + k] == from &&
+            scene.corners_[face.first_corner + (k + 1) % face.corner_count] == to) {
+          scene.side_edges_[face.first_corner + k] = edge_of_chain[chain_of[e]];
+        }
+      }
+    }
+  }
   auto& starts = scene.edge_starts_;
   starts.assign(scene.points_.size() + 1, 0);
   for (const Edge& edge : scene.edges_) {

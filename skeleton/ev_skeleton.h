@@ -21,9 +21,10 @@
 namespace sightline {
 
 /// What an extremal stabbing line is held by, vertex first in the name; Degenerate lines
-/// have more contacts than four degrees of freedom need; Pierce is where an edge enters a
-/// face (overlapping solids only).
-enum class NodeKind : std::uint8_t { VV, VEE, EVE, FvE, Pierce, Degenerate };
+/// have more contacts than four degrees of freedom need; Saddle is a line through a corner
+/// along which two of that corner's own edges line up (objects that are not convex);
+/// Pierce is where an edge enters a face (overlapping objects).
+enum class NodeKind : std::uint8_t { VV, VEE, EVE, FvE, Saddle, Pierce, Degenerate };
 
 enum class GeneratorKind : std::uint8_t { Vertex, Edge, Face };
 

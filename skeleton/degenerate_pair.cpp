@@ -1,0 +1,443 @@
+#include "skeleton/degenerate_pair_internal.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace sightline::internal {
+namespace {
+
+Rational exact_orient(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c,
+                      const ExactPoint& d) {
+  const auto minus = [](const ExactPoint& p, const ExactPoint& q) {
+    return ExactPoint{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+  };
+  const ExactPoint u = minus(b, a);
+  const ExactPoint v = minus(c, a);
+  const ExactPoint w = minus(d, a);
+  return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
+         w[2] * (u[0] * v[1] - u[1] * v[0]);
+}
+
+ExactPoint along(const ExactPoint& a, const ExactPoint& b, const Rational& s) {
+  return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
+}
+
+Rational exact_parameter(const Scene& scene, const ExactPoint& e0, const ExactPoint& e1,
+                         const Cut& cut) {
+  if (cut.kind == CutKind::Start) return 0;
+  if (cut.kind == CutKind::End) return 1;
+  const ExactPoint a = exact_point(scene.point(cut.plane[0]));
+  const ExactPoint b = exact_point(scene.point(cut.plane[1]));
+  const ExactPoint c = exact_point(scene.point(cut.plane[2]));
+  const Rational x = exact_orient(a, b, c, e0);
+  const Rational y = exact_orient(a, b, c, e1);
+  return x / (x - y);
+}
+
+Point rounded(const ExactPoint& p) {
+  return {p[0].convert_to<double>(), p[1].convert_to<double>(), p[2].convert_to<double>()};
+}
+
+// Faces whose boxes, grown by a little, come near the line through a and b: everything
+// the line can touch.  The growth covers the rounding of b and of the slab test.
+std::vector<int> faces_near_line(const Generators& g, const Point& a, const Point& b) {
+  std::vector<int> found;
+  const auto& bounds = g.scene().bounds();
+  double size = 0;
+  for (int i = 0; i < 3; ++i) {
+    size = std::max({size, std::abs(bounds[0][i]), std::abs(bounds[1][i])});
+  }
+  const Point d = b - a;
+  const double grow = 1024 * std::numeric_limits<double>::epsilon() * size *
+                      (1 + size / d.norm());
+  g.face_tree().traverse(
+      [&](const Box& box) {
+        double t0 = -std::numeric_limits<double>::infinity();
+        double t1 = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < 3; ++i) {
+          const double low = box.min[i] - grow - a[i];
+          const double high = box.max[i] + grow - a[i];
+          if (std::abs(d[i]) * size <= grow * d.norm()) {
+            if (std::abs(d[i]) == 0 && (low > 0 || high < 0)) return false;
+            continue;  // nearly parallel to the slab: no decision
+          }
+          const double p = low / d[i];
+          const double q = high / d[i];
+          t0 = std::max(t0, std::min(p, q));
+          t1 = std::min(t1, std::max(p, q));
+        }
+        return t0 <= t1 + 1e-9 * (std::abs(t0) + std::abs(t1));
+      },
+      [&](std::uint32_t f) { found.push_back(static_cast<int>(f)); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+// Faces that meet the double wedge of lines through v and the edge, out to the bounds.
+std::vector<int> faces_near_lines(const Generators& g, const Point& v, const Point& e0,
+                                  const Point& e1) {
+  const auto& bounds = g.scene().bounds();
+  const double size = (bounds[1] - bounds[0]).norm() + (e0 - v).norm() + (e1 - v).norm();
+  // Far enough that the triangle's base lies beyond everything.
+  const Point u = e0 - v;
+  const Point w = e1 - v;
+  const double height = u.cross(w).norm() / (w - u).norm();
+  const double reach = 4 * size / height;
+  const Shaft ahead(v, v + reach * u, v + reach * w);
+  const Shaft behind(v, v - reach * u, v - reach * w);
+  const double grow = 1024 * std::numeric_limits<double>::epsilon() * size * (1 + reach);
+  std::vector<int> found;
+  g.face_tree().traverse(
+      [&](Box box) {
+        for (int i = 0; i < 3; ++i) {
+          box.min[i] -= grow;
+          box.max[i] += grow;
+        }
+        return ahead.may_meet(box) || behind.may_meet(box);
+      },
+      [&](std::uint32_t f) { found.push_back(static_cast<int>(f)); });
+  return found;
+}
+
+struct Contacts {
+  std::vector<std::vector<Generator>> groups;  ///< generators contact by contact
+  bool free = true;
+
+  [[nodiscard]] std::vector<Generator> flat() const {
+    std::vector<Generator> all;
+    for (const auto& g : groups) all.insert(all.end(), g.begin(), g.end());
+    return all;
+  }
+};
+
+// What a contact is made of: corners, edges that are not flat, faces the line lies in.
+std::vector<Generator> generators_of(const Generators& g, const LineScan& scan, int contact) {
+  const Scene& scene = g.scene();
+  std::vector<Generator> found;
+  std::vector<int> facets;
+  const auto add_edge = [&](int edge) {
+    if (edge >= 0) found.push_back({GeneratorKind::Edge, edge});
+  };
+  const auto touches = scan.touches(contact);
+  for (const Touch& t : touches) {
+    const auto corners = scene.face_points(t.face);
+    if (t.kind == TouchKind::Corner) {
+      const int p = corners[t.index];
+      if (g.star_of_point(p) >= 0) {
+        found.push_back({GeneratorKind::Vertex, p});
+      } else {
+        const auto n = static_cast<int>(corners.size());
+        add_edge(scene.edge_of_side(t.face, t.index));
+        add_edge(scene.edge_of_side(t.face, (t.index + n - 1) % n));
+      }
+    } else if (t.kind == TouchKind::Edge) {
+      add_edge(scene.edge_of_side(t.face, t.index));
+    } else if (t.kind == TouchKind::EdgeOn) {
+      facets.push_back(scene.faces()[t.face].facet);
+    }
+  }
+  std::sort(facets.begin(), facets.end());
+  facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+  // The edge-on faces' corners are contacts too, though the touch says only EdgeOn.
+  for (const Touch& t : touches) {
+    if (t.kind != TouchKind::EdgeOn) continue;
+    for (const Rational* at : {&scan.from(contact), &scan.to(contact)}) {
+      (void)at;
+    }
+  }
+  // A side through which the line leaves an edge-on face says nothing new.
+  std::erase_if(found, [&](const Generator& x) {
+    if (x.kind != GeneratorKind::Edge) return false;
+    const auto& sides = scene.edges()[x.id].sides;
+    return std::any_of(sides.begin(), sides.end(), [&](const Edge::Side& s) {
+      return std::binary_search(facets.begin(), facets.end(), scene.faces()[s.face].facet);
+    });
+  });
+  for (const int f : facets) found.push_back({GeneratorKind::Face, f});
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+Contacts contacts_between(const Generators& g, const LineScan& scan) {
+  Contacts c;
+  for (int i = 0; i < scan.size(); ++i) {
+    if (scan.to(i) < 0 || scan.from(i) > 1) continue;
+    c.free = c.free && !scan.blocked(i);
+    c.groups.push_back(generators_of(g, scan, i));
+  }
+  return c;
+}
+
+bool is_free(const LineScan& scan) {
+  for (int i = 0; i < scan.size(); ++i) {
+    if (scan.to(i) < 0 || scan.from(i) > 1) continue;
+    if (scan.blocked(i)) return false;
+  }
+  return true;
+}
+
+// The kind that exactly these contacts make, in the order of the line or reversed.
+std::optional<NodeKind> kind_of(std::vector<std::vector<Generator>> groups) {
+  std::erase_if(groups, [](const auto& x) { return x.empty(); });
+  const auto is = [](const std::vector<Generator>& group,
+                     std::initializer_list<GeneratorKind> kinds) {
+    return std::equal(group.begin(), group.end(), kinds.begin(), kinds.end(),
+                      [](const Generator& x, GeneratorKind k) { return x.kind == k; });
+  };
+  constexpr auto v = GeneratorKind::Vertex;
+  constexpr auto e = GeneratorKind::Edge;
+  constexpr auto f = GeneratorKind::Face;
+  for (int turn = 0; turn < 2; ++turn) {
+    const auto n = groups.size();
+    if (n == 2 && is(groups[0], {v}) && is(groups[1], {v})) return NodeKind::VV;
+    if (n == 2 && is(groups[0], {v, f}) && is(groups[1], {e})) return NodeKind::FvE;
+    if (n == 3 && is(groups[0], {v}) && is(groups[1], {e}) && is(groups[2], {e})) {
+      return NodeKind::VEE;
+    }
+    if (n == 3 && is(groups[0], {e}) && is(groups[1], {v}) && is(groups[2], {e})) {
+      return NodeKind::EVE;
+    }
+    std::reverse(groups.begin(), groups.end());
+  }
+  return std::nullopt;
+}
+
+std::vector<std::int32_t> objects_of(const Generators& g, const Generator& x) {
+  const Scene& scene = g.scene();
+  if (x.kind == GeneratorKind::Vertex) {
+    const auto o = g.objects_at(x.id);
+    return {o.begin(), o.end()};
+  }
+  if (x.kind == GeneratorKind::Edge) return {scene.edges()[x.id].object};
+  return {scene.facets()[x.id].object};
+}
+
+// Two contacts on one and the same object.
+bool two_on_one_object(const Generators& g, const std::vector<std::vector<Generator>>& groups) {
+  std::vector<std::int32_t> single;
+  for (const auto& group : groups) {
+    if (group.empty()) continue;
+    const auto o = objects_of(g, group.front());
+    if (o.size() != 1) continue;
+    if (std::find(single.begin(), single.end(), o[0]) != single.end()) return true;
+    single.push_back(o[0]);
+  }
+  return false;
+}
+
+std::uint32_t add_node_at(const Generators& g, const Point& v, const ExactPoint& x,
+                          const LineScan& scan, const CutUnion& closed, const Cut& cut,
+                          VertexView& out) {
+  (void)closed;
+  (void)cut;
+  const Contacts c = contacts_between(g, scan);
+  const auto kind = kind_of(c.groups);
+  return out.add_node(kind.value_or(NodeKind::Degenerate), two_on_one_object(g, c.groups),
+                      !c.free, c.flat(), {v, rounded(x)});
+}
+
+// All positions where the line's contacts can change, between the edge's ends.
+std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Point& e0,
+                               const Point& e1, const PlaneSide& plane,
+                               std::span<const int> faces) {
+  const Scene& scene = g.scene();
+  const Point& v = scene.point(star.point);
+  std::vector<Cut> cuts;
+  int off_plane = -1;
+  for (const int f : faces) {
+    for (const int p : scene.face_points(f)) {
+      if (plane(scene.point(p)) != Sign::Zero) off_plane = p;
+    }
+  }
+  const auto add = [&](CutKind kind, int feature, std::array<std::int32_t, 3> points) {
+    const PlaneSide cutter({scene.point(points[0]), scene.point(points[1]),
+                            scene.point(points[2])});
+    const Sign s0 = cutter(e0);
+    const Sign s1 = cutter(e1);
+    if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) return;
+    cuts.push_back(make_cut(kind, feature, points, cutter.value(e0), cutter.value(e1)));
+  };
+  for (const int f : faces) {
+    const auto corners = scene.face_points(f);
+    const std::size_t n = corners.size();
+    for (std::size_t k = 0; k < n; ++k) {
+      const int p = corners[k];
+      const int q = corners[(k + 1) % n];
+      if (p != star.point && q != star.point) {
+        const int edge = scene.edge_of_side(f, static_cast<int>(k));
+        add(CutKind::Side, edge, {star.point, std::min(p, q), std::max(p, q)});
+      }
+      if (p != star.point && off_plane >= 0 && plane(scene.point(p)) == Sign::Zero) {
+        add(CutKind::Side, -1, {star.point, p, off_plane});
+      }
+    }
+    const bool at_viewpoint = g.face_plane(f)(v) == Sign::Zero;
+    add(at_viewpoint ? CutKind::Support : CutKind::Pierce, scene.faces()[f].facet,
+        plane_points(scene, f));
+  }
+  if (!star.convex) {
+    for (std::size_t i = 0; i < star.rays.size(); ++i) {
+      for (std::size_t j = i + 1; j < star.rays.size(); ++j) {
+        if (collinear(v, scene.point(star.rays[i]), scene.point(star.rays[j]))) continue;
+        add(CutKind::Saddle, -1, {star.point, star.rays[i], star.rays[j]});
+      }
+    }
+  }
+  const LineThrough line{e0, e1};
+  std::sort(cuts.begin(), cuts.end(), [&](const Cut& a, const Cut& b) {
+    return compare(scene, line, a, b) == Sign::Negative;
+  });
+  cuts.erase(std::unique(cuts.begin(), cuts.end(),
+                         [&](const Cut& a, const Cut& b) {
+                           return compare(scene, line, a, b) == Sign::Zero;
+                         }),
+             cuts.end());
+  return cuts;
+}
+
+}  // namespace
+
+void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& ridge,
+                         const PlaneSide& plane, const CutUnion& closed,
+                         std::span<const std::int32_t> meeting, VertexView& out) {
+  const Scene& scene = g.scene();
+  const Point& v = scene.point(star.point);
+  const Point& e0 = scene.point(ridge.points[0]);
+  const Point& e1 = scene.point(ridge.points[1]);
+  const LineThrough line{e0, e1};
+  out.degenerate = true;
+
+  // A face in the plane can join contacts far beyond the triangle.
+  std::vector<int> faces(meeting.begin(), meeting.end());
+  const bool coplanar = std::any_of(faces.begin(), faces.end(), [&](int f) {
+    const auto corners = scene.face_points(f);
+    return std::all_of(corners.begin(), corners.end(),
+                       [&](int p) { return plane(scene.point(p)) == Sign::Zero; });
+  });
+  if (coplanar) faces = faces_near_lines(g, v, e0, e1);
+  faces.insert(faces.end(), star.faces.begin(), star.faces.end());
+  for (const int p : ridge.points) {
+    const int s = g.star_of_point(p);
+    if (s < 0) continue;
+    faces.insert(faces.end(), g.stars()[s].faces.begin(), g.stars()[s].faces.end());
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+
+  const auto cuts = critical_cuts(g, star, e0, e1, plane, faces);
+  const ExactPoint from = exact_point(v);
+  const ExactPoint x0 = exact_point(e0);
+  const ExactPoint x1 = exact_point(e1);
+  const auto point_at = [&](const Cut& c) {
+    if (c.kind == CutKind::Start) return x0;
+    if (c.kind == CutKind::End) return x1;
+    return along(x0, x1, exact_parameter(scene, x0, x1, c));
+  };
+  const auto point_between = [&](const Cut& a, const Cut& b) {
+    if (a.hi < b.lo) {
+      const double middle = a.hi + 0.5 * (b.lo - a.hi);
+      if (middle > a.hi && middle < b.lo) return along(x0, x1, Rational(middle));
+    }
+    const Rational s = exact_parameter(scene, x0, x1, a);
+    const Rational t = exact_parameter(scene, x0, x1, b);
+    return along(x0, x1, (s + t) / 2);
+  };
+  const auto own = g.objects_at(star.point);
+  const int object = scene.edges()[ridge.edge].object;
+  const bool self = own.size() == 1 && own[0] == object;
+
+  for (const CutInterval& open : closed.complement()) {
+    std::vector<Cut> stops{open.from};
+    for (const Cut& c : cuts) {
+      if (compare(scene, line, open.from, c) == Sign::Negative &&
+          compare(scene, line, c, open.to) == Sign::Negative) {
+        stops.push_back(c);
+      }
+    }
+    stops.push_back(open.to);
+    std::optional<Cut> begin;
+    const auto end_arc = [&](const Cut& end) {
+      SkeletonArc arc;
+      arc.vertex = star.point;
+      arc.edge = ridge.edge;
+      arc.self = self;
+      arc.range = {begin->parameter(), end.parameter()};
+      int k = 0;
+      for (const Cut& c : {*begin, end}) {
+        const ExactPoint x = point_at(c);
+        const LineScan scan(scene, faces, from, x);
+        arc.nodes[k++] = add_node_at(g, v, x, scan, closed, c, out);
+      }
+      out.arcs.push_back(arc);
+      out.intervals.push_back({*begin, end});
+      begin.reset();
+    };
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+      const bool free =
+          is_free(LineScan(scene, faces, from, point_between(stops[i], stops[i + 1])));
+      if (begin && i > 0) {
+        // The arc goes on through a critical line that is free itself.
+        if (!free || !is_free(LineScan(scene, faces, from, point_at(stops[i])))) {
+          end_arc(stops[i]);
+        }
+      }
+      if (free && !begin) begin = stops[i];
+    }
+    if (begin) end_arc(stops.back());
+  }
+}
+
+void find_further_contacts(const Generators& g, const Star& star, VertexView& view) {
+  const Scene& scene = g.scene();
+  const Point& v = scene.point(star.point);
+  const ExactPoint from = exact_point(v);
+  std::vector<std::uint8_t> done(view.nodes.size(), 0);
+  for (std::size_t i = 0; i < view.arcs.size(); ++i) {
+    const Edge& edge = scene.edges()[view.arcs[i].edge];
+    const ExactPoint x0 = exact_point(scene.point(edge.points[0]));
+    const ExactPoint x1 = exact_point(scene.point(edge.points[1]));
+    for (int k = 0; k < 2; ++k) {
+      const std::uint32_t id = view.arcs[i].nodes[k];
+      if (done[id]) continue;
+      done[id] = 1;
+      SkeletonNode& node = view.nodes[id];
+      if (node.end) continue;
+      const Cut& cut = k == 0 ? view.intervals[i].from : view.intervals[i].to;
+      const ExactPoint x = cut.kind == CutKind::Start ? x0
+                           : cut.kind == CutKind::End
+                               ? x1
+                               : along(x0, x1, exact_parameter(scene, x0, x1, cut));
+      const LineScan scan(scene, faces_near_line(g, v, rounded(x)), from, x);
+      int first = -1;
+      int last = -1;
+      for (int c = 0; c < scan.size(); ++c) {
+        if (scan.from(c) <= 0 && scan.to(c) >= 0) first = c;
+        if (scan.from(c) <= 1 && scan.to(c) >= 1) last = c;
+      }
+      if (first < 0 || last < 0) continue;
+      while (first > 0 && !scan.blocked(first - 1)) --first;
+      while (last + 1 < scan.size() && !scan.blocked(last + 1)) ++last;
+      std::vector<std::vector<Generator>> groups;
+      for (int c = first; c <= last; ++c) groups.push_back(generators_of(g, scan, c));
+      const auto kind = kind_of(groups);
+      if (kind && *kind == node.kind) continue;
+      std::vector<Generator> all;
+      for (const auto& group : groups) all.insert(all.end(), group.begin(), group.end());
+      std::vector<Generator> reversed;
+      for (auto group = groups.rbegin(); group != groups.rend(); ++group) {
+        reversed.insert(reversed.end(), group->begin(), group->end());
+      }
+      if (reversed < all) all = reversed;
+      node.kind = kind.value_or(NodeKind::Degenerate);
+      node.self = two_on_one_object(g, groups);
+      node.first_generator = static_cast<std::uint32_t>(view.pool.size());
+      node.generator_count = static_cast<std::uint16_t>(all.size());
+      view.pool.insert(view.pool.end(), all.begin(), all.end());
+    }
+  }
+}
+
+}  // namespace sightline::internal

@@ -1,0 +1,30 @@
+// Vertex and edge whose triangle holds something more than crossing faces: corners in its
+// plane, coplanar faces, touching solids, cuts that coincide.  Slow, general, exact: every
+// stretch between two critical positions, and every critical position, is judged by the
+// contacts of its line.
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "linespace/contact_internal.h"
+#include "skeleton/edge_cuts_internal.h"
+#include "skeleton/generators_internal.h"
+#include "skeleton/vertex_view_internal.h"
+
+namespace sightline::internal {
+
+/// Adds the arcs of one vertex and one ridge.  `plane` is theirs, `closed` holds parts
+/// known to be hidden or unsupported, `faces` all faces that meet the triangle between.
+void add_degenerate_pair(const Generators& generators, const Star& star,
+                         const Ridge& ridge, const PlaneSide& plane,
+                         const CutUnion& closed, std::span<const std::int32_t> faces,
+                         VertexView& out);
+
+/// Looks at every node of a view along its whole maximal free segment: those with more
+/// contacts than their kind has become Degenerate, with all generators listed from the
+/// end with the smaller one.
+void find_further_contacts(const Generators& generators, const Star& star, VertexView& view);
+
+}  // namespace sightline::internal

@@ -1,0 +1,466 @@
+#include <algorithm>
+#include <cassert>
+
+#include "skeleton/generators_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+Box box_between(const Point& p, const Point& q) {
+  const std::array<Point, 2> both{p, q};
+  return box_of(both);
+}
+
+bool overlap(const Box& a, const Box& b) {
+  for (int i = 0; i < 3; ++i) {
+    if (a.min[i] > b.max[i] || a.max[i] < b.min[i]) return false;
+  }
+  return true;
+}
+
+Bvh tree_over_faces(const Scene& scene) {
+  std::vector<Box> boxes;
+  boxes.reserve(scene.faces().size());
+  std::vector<Point> points;
+  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    points.clear();
+    for (const int p : scene.face_points(static_cast<int>(f))) {
+      points.push_back(scene.point(p));
+    }
+    boxes.push_back(box_of(points));
+  }
+  return Bvh(boxes);
+}
+
+bool has_point(const Scene& scene, int face, int point) {
+  const auto p = scene.face_points(face);
+  return std::find(p.begin(), p.end(), point) != p.end();
+}
+
+// Same ray from the origin: collinear, and not opposite.
+bool same_direction(const Point& origin, const Point& p, const Point& q) {
+  if (!collinear(origin, p, q)) return false;
+  for (int i = 0; i < 3; ++i) {
+    if (p[i] != origin[i]) return (p[i] > origin[i]) == (q[i] > origin[i]) && q[i] != origin[i];
+  }
+  return false;
+}
+
+// How a face of another object, or of the same one elsewhere, meets the open edge.
+enum class EdgeTouch : std::uint8_t { None, Touches, ContainsInside };
+
+}  // namespace
+
+InPlaneSide::InPlaneSide(const Scene& scene, int face) {
+  const auto corners = scene.face_points(face);
+  const Point& a = scene.point(corners[0]);
+  const Point& b = scene.point(corners[1]);
+  const Point& c = scene.point(corners[2]);
+  const Point n = (b - a).cross(c - a);
+  n.cwiseAbs().maxCoeff(&axis_);
+  // The rounded normal only proposes the axis; take the first that really works.
+  for (int tried = 0; tried < 3; ++tried, axis_ = (axis_ + 1) % 3) {
+    orientation_ = Sign::Positive;
+    orientation_ = (*this)(a, b, c);
+    if (orientation_ != Sign::Zero) return;
+  }
+}
+
+Sign InPlaneSide::operator()(const Point& p, const Point& q, const Point& x) const {
+  // Any point above p on the axis spans the same plane with p and q: exactness does not
+  // depend on which one.
+  Point above = p;
+  above[axis_] = p[axis_] > 0 ? -p[axis_] : (p[axis_] < 0 ? -p[axis_] : 1.0);
+  const Sign s = orient3d(p, q, above, x);
+  return (above[axis_] > p[axis_] ? s : -s) * orientation_;
+}
+
+PointInFace locate_in_plane(const Scene& scene, int face, const Point& x) {
+  const InPlaneSide left_of(scene, face);
+  const auto corners = scene.face_points(face);
+  bool boundary = false;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Point& p = scene.point(corners[k]);
+    const Point& q = scene.point(corners[(k + 1) % corners.size()]);
+    const Sign s = left_of(p, q, x);
+    if (s == Sign::Negative) return PointInFace::Outside;
+    if (s == Sign::Zero) boundary = true;
+  }
+  return boundary ? PointInFace::Boundary : PointInFace::Inside;
+}
+
+namespace {
+
+// Where face f, which is not one of the edge's own, meets the open segment e0 e1.
+EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Point& e0,
+                   const Point& e1) {
+  const Sign s0 = plane(e0);
+  const Sign s1 = plane(e1);
+  const auto corners = scene.face_points(f);
+  const std::size_t n = corners.size();
+  if (s0 != Sign::Zero || s1 != Sign::Zero) {
+    if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) return EdgeTouch::None;
+    // Crosses the plane inside: within the closed polygon unless it passes some side on
+    // the outside.
+    for (std::size_t k = 0; k < n; ++k) {
+      const Sign s = orient3d(scene.point(corners[k]), scene.point(corners[(k + 1) % n]), e0, e1);
+      if (s == Sign::Zero) continue;
+      // Seen from the front a line going to the back passes inside on the left.
+      const Sign inside = s0 == Sign::Positive ? Sign::Negative : Sign::Positive;
+      if (s != inside) return EdgeTouch::None;
+    }
+    return EdgeTouch::Touches;
+  }
+  // Coplanar: clip combinatorially.  Outside some side as a whole: no touch.
+  const InPlaneSide left_of(scene, f);
+  bool along_side = false;
+  int outside_ends[2] = {0, 0};
+  for (std::size_t k = 0; k < n; ++k) {
+    const Point& p = scene.point(corners[k]);
+    const Point& q = scene.point(corners[(k + 1) % n]);
+    const Sign a = left_of(p, q, e0);
+    const Sign b = left_of(p, q, e1);
+    if (a == Sign::Zero && b == Sign::Zero) {
+      along_side = true;
+      continue;
+    }
+    if (a != Sign::Positive && b != Sign::Positive) return EdgeTouch::None;
+    outside_ends[0] += a == Sign::Negative;
+    outside_ends[1] += b == Sign::Negative;
+  }
+  // A segment that crosses two sides' lines outside the polygon is found out by the
+  // polygon's corners all lying on one side of it.
+  bool left = false, right = false;
+  for (const int c : corners) {
+    const Sign s = left_of(e0, e1, scene.point(c));
+    left |= s == Sign::Positive;
+    right |= s == Sign::Negative;
+  }
+  if (along_side) return EdgeTouch::Touches;
+  if (!left || !right) {
+    // At most a corner of the polygon lies on the open segment.
+    return EdgeTouch::Touches;
+  }
+  return outside_ends[0] == 0 && outside_ends[1] == 0 ? EdgeTouch::ContainsInside
+                                                      : EdgeTouch::Touches;
+}
+
+}  // namespace
+
+Generators::Generators(const Scene& scene, int /*threads*/)
+    : scene_(&scene), face_tree_(tree_over_faces(scene)), ridge_tree_(std::vector<Box>{}) {
+  face_planes_.reserve(scene.faces().size());
+  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    face_planes_.emplace_back(face_plane_through(scene, static_cast<int>(f)));
+  }
+  object_starts_.assign(scene.points().size() + 1, 0);
+  for (std::size_t p = 0; p < scene.points().size(); ++p) {
+    std::vector<std::int32_t> ids;
+    for (const int f : scene.faces_at(static_cast<int>(p))) ids.push_back(scene.faces()[f].object);
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    object_ids_.insert(object_ids_.end(), ids.begin(), ids.end());
+    object_starts_[p + 1] = static_cast<std::int32_t>(object_ids_.size());
+  }
+  find_convex_solids();
+  find_ridges();
+  find_stars();
+  find_inside();
+}
+
+void Generators::find_convex_solids() {
+  const Scene& s = *scene_;
+  convex_.assign(s.objects().size(), 0);
+  std::vector<std::uint8_t> all_convex(s.objects().size(), 1);
+  for (const Edge& e : s.edges()) {
+    if (e.kind != EdgeKind::Convex) all_convex[e.object] = 0;
+  }
+  for (std::size_t o = 0; o < s.objects().size(); ++o) {
+    const Object& object = s.objects()[o];
+    if (object.convex) {
+      convex_[o] = 1;
+      continue;
+    }
+    // Folds by an ulp inside a facet do not count: every point lies behind every plane
+    // but those of its own facets.
+    if (!object.closed || !all_convex[o] || object.faces.size() > 400) continue;
+    bool ok = true;
+    for (std::size_t i = 0; i < object.faces.size() && ok; ++i) {
+      const int f = object.faces[i];
+      for (std::size_t j = 0; j < object.faces.size() && ok; ++j) {
+        const int g = object.faces[j];
+        if (s.faces()[g].facet == s.faces()[f].facet) continue;
+        for (const int p : s.face_points(g)) {
+          if (face_planes_[f](s.point(p)) != Sign::Positive) continue;
+          const auto near = s.faces_at(p);
+          ok = ok && std::any_of(near.begin(), near.end(), [&](int h) {
+                 return s.faces()[h].facet == s.faces()[f].facet;
+               });
+        }
+      }
+    }
+    convex_[o] = ok;
+  }
+}
+
+void Generators::find_ridges() {
+  const Scene& s = *scene_;
+  ridge_of_edge_.assign(s.edges().size(), -1);
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < s.edges().size(); ++i) {
+    const Edge& e = s.edges()[i];
+    const Point& e0 = s.point(e.points[0]);
+    const Point& e1 = s.point(e.points[1]);
+    // The third point of each face at the edge gives the direction of its half-plane.
+    std::vector<std::int32_t> thirds, faces;
+    for (const Edge::Side& side : e.sides) {
+      for (const int p : s.face_points(side.face)) {
+        if (collinear(e0, e1, s.point(p))) continue;
+        thirds.push_back(p);
+        faces.push_back(side.face);
+        break;
+      }
+    }
+    // The two half-planes with all others strictly to one side of them.
+    const auto extreme = [&](Sign wanted) {
+      for (std::size_t a = 0; a < thirds.size(); ++a) {
+        bool ok = true;
+        for (std::size_t b = 0; b < thirds.size() && ok; ++b) {
+          if (b == a) continue;
+          const Sign t = orient3d(e0, e1, s.point(thirds[a]), s.point(thirds[b]));
+          if (t == Sign::Zero) {
+            // Same half-plane or the opposite one: told apart by any plane through the
+            // edge other than theirs.
+            const InPlaneSide left_of(s, faces[a]);
+            ok = left_of(e0, e1, s.point(thirds[a])) == left_of(e0, e1, s.point(thirds[b]));
+          } else {
+            ok = t == wanted;
+          }
+        }
+        if (ok) return static_cast<int>(a);
+      }
+      return -1;
+    };
+    const int a = extreme(Sign::Positive);
+    const int b = extreme(Sign::Negative);
+    if (a < 0 || b < 0) continue;
+    // In a closed object the gap must be outside: fronts face it.
+    if (s.objects()[e.object].closed && thirds.size() > 1 && e.kind == EdgeKind::Reflex) continue;
+    if (s.objects()[e.object].closed && e.kind == EdgeKind::NonManifold) {
+      const auto fronts_gap = [&](int k, Sign wanted) {
+        // Positive side of (e0, e1, third) is the wedge for a, the gap for b.
+        const PlaneThrough p = face_plane_through(s, faces[k]);
+        const Point n = (p.b - p.a).cross(p.c - p.a);
+        const Point m = (e1 - e0).cross(s.point(thirds[k]) - e0);
+        return (n.dot(m) > 0) == (wanted == Sign::Positive);
+      };
+      bool some = false;
+      for (std::size_t k = 0; k < thirds.size(); ++k) {
+        if (orient3d(e0, e1, s.point(thirds[a]), s.point(thirds[k])) == Sign::Zero) {
+          some |= fronts_gap(static_cast<int>(k), Sign::Negative);
+        }
+      }
+      if (!some) continue;
+    }
+    const Box box = box_between(e0, e1);
+    EdgeTouch touched = EdgeTouch::None;
+    face_tree_.traverse(
+        [&](const Box& other) {
+          return touched != EdgeTouch::ContainsInside && overlap(box, other);
+        },
+        [&](std::uint32_t item) {
+          const int f = static_cast<int>(item);
+          if (touched == EdgeTouch::ContainsInside) return;
+          if (has_point(s, f, e.points[0]) && has_point(s, f, e.points[1])) {
+            const bool own = std::find(faces.begin(), faces.end(), f) != faces.end();
+            if (own || s.faces()[f].object == e.object) return;
+          }
+          // Faces along a chain of mesh edges merged into this one are its own.
+          for (const int own : faces) {
+            if (s.faces()[own].facet == s.faces()[f].facet) return;
+          }
+          touched = std::max(touched, touch_of(s, face_planes_[f], f, e0, e1));
+        });
+    if (touched == EdgeTouch::ContainsInside) continue;
+    ridge_of_edge_[i] = static_cast<int>(ridges_.size());
+    // Behind both planes is the wedge.
+    ridges_.push_back({static_cast<std::int32_t>(i), e.points,
+                       PlaneSide({e1, e0, s.point(thirds[a])}),
+                       PlaneSide({e0, e1, s.point(thirds[b])}),
+                       touched == EdgeTouch::Touches});
+    boxes.push_back(box);
+  }
+  ridge_tree_ = Bvh(boxes);
+}
+
+void Generators::find_stars() {
+  const Scene& s = *scene_;
+  star_of_point_.assign(s.points().size(), -1);
+  for (const int p : s.corners()) {
+    star_of_point_[p] = static_cast<int>(stars_.size());
+    Star star;
+    star.point = p;
+    const Point& at = s.point(p);
+    const auto own = s.faces_at(p);
+    star.faces.assign(own.begin(), own.end());
+    std::vector<std::array<std::int32_t, 3>> wedges;  // far point, far point, facet
+    for (const int f : own) {
+      const auto c = s.face_points(f);
+      const std::size_t n = c.size();
+      const auto k = static_cast<std::size_t>(std::find(c.begin(), c.end(), p) - c.begin());
+      const int next = c[(k + 1) % n];
+      const int previous = c[(k + n - 1) % n];
+      if (collinear(at, s.point(next), s.point(previous))) {
+        // The point lies on a straight side of the polygon: half a plane.
+        for (std::size_t m = 2; m < n; ++m) {
+          const int third = c[(k + m) % n];
+          if (collinear(at, s.point(next), s.point(third))) continue;
+          wedges.push_back({next, third, s.faces()[f].facet});
+          wedges.push_back({third, previous, s.faces()[f].facet});
+          break;
+        }
+      } else {
+        wedges.push_back({next, previous, s.faces()[f].facet});
+      }
+      star.facets.push_back(s.faces()[f].facet);
+    }
+    const Box box = box_between(at, at);
+    face_tree_.traverse(
+        [&](const Box& other) { return overlap(box, other); },
+        [&](std::uint32_t item) {
+          const int f = static_cast<int>(item);
+          if (has_point(s, f, p) || face_planes_[f](at) != Sign::Zero) return;
+          const PointInFace where = locate_in_plane(s, f, at);
+          if (where == PointInFace::Outside) return;
+          star.faces.push_back(f);
+          star.touched = true;
+          const auto c = s.face_points(f);
+          const std::size_t n = c.size();
+          const InPlaneSide left_of(s, f);
+          if (where == PointInFace::Inside) {
+            star.in_plane_only = true;
+            star.planes.push_back(f);
+          }
+          for (std::size_t k = 0; k < n; ++k) {
+            const Point& q = s.point(c[k]);
+            const Point& r = s.point(c[(k + 1) % n]);
+            if (left_of(q, r, at) == Sign::Zero) continue;
+            wedges.push_back({c[k], c[(k + 1) % n], s.faces()[f].facet});
+          }
+        });
+    std::sort(star.facets.begin(), star.facets.end());
+    star.facets.erase(std::unique(star.facets.begin(), star.facets.end()), star.facets.end());
+    const auto ray = [&](std::int32_t far) {
+      for (std::size_t r = 0; r < star.rays.size(); ++r) {
+        if (star.rays[r] == far || same_direction(at, s.point(star.rays[r]), s.point(far))) {
+          return static_cast<std::int32_t>(r);
+        }
+      }
+      star.rays.push_back(far);
+      return static_cast<std::int32_t>(star.rays.size() - 1);
+    };
+    for (const auto& w : wedges) star.sectors.push_back({ray(w[0]), ray(w[1]), w[2]});
+
+    star.touched = star.touched || objects_at(p).size() > 1;
+    bool convex = !star.touched && s.objects()[s.faces()[own[0]].object].closed;
+    for (const int e : s.edges_at(p)) convex = convex && s.edges()[e].kind == EdgeKind::Convex;
+    // Locally convex along every edge and one fan: check it is one cone.
+    for (std::size_t k = 0; k < own.size() && convex; ++k) {
+      for (const auto& w : wedges) {
+        if (w[2] == s.faces()[own[k]].facet) continue;
+        for (int end = 0; end < 2 && convex; ++end) {
+          if (face_planes_[own[k]](s.point(w[end])) != Sign::Positive) continue;
+          // Rays shared with the facet itself may rise above another of its triangles.
+          convex = std::any_of(wedges.begin(), wedges.end(), [&](const auto& other) {
+            return other[2] == s.faces()[own[k]].facet &&
+                   (other[0] == w[end] || other[1] == w[end]);
+          });
+        }
+      }
+    }
+    star.convex = convex;
+    // Flat all around within its own object: no generator of transversal lines.
+    stars_.push_back(std::move(star));
+  }
+}
+
+void Generators::find_inside() {
+  const Scene& s = *scene_;
+  inside_.assign(stars_.size(), 0);
+  for (std::size_t o = 0; o < s.objects().size(); ++o) {
+    const Object& object = s.objects()[o];
+    if (!object.closed) continue;
+    std::vector<Point> points;
+    for (const int f : object.faces) {
+      for (const int p : s.face_points(f)) points.push_back(s.point(p));
+    }
+    if (points.empty()) continue;
+    const Box box = box_of(points);
+    double volume = 0;
+    if (!convex_[o]) {
+      const Point origin = points[0];
+      for (const int f : object.faces) {
+        const auto c = s.face_points(f);
+        for (std::size_t k = 1; k + 1 < c.size(); ++k) {
+          volume += (s.point(c[0]) - origin)
+                        .dot((s.point(c[k]) - origin).cross(s.point(c[k + 1]) - origin));
+        }
+      }
+      if (volume <= 0) continue;
+    }
+    for (std::size_t i = 0; i < stars_.size(); ++i) {
+      if (inside_[i]) continue;
+      const Point& p = s.point(stars_[i].point);
+      bool in_box = true;
+      for (int k = 0; k < 3; ++k) in_box = in_box && p[k] > box.min[k] && p[k] < box.max[k];
+      if (!in_box) continue;
+      if (convex_[o]) {
+        inside_[i] = std::all_of(object.faces.begin(), object.faces.end(), [&](int f) {
+          return face_planes_[f](p) == Sign::Negative;
+        });
+      } else {
+        inside_[i] = 0;  // filled by parity below
+        // Crossings with a segment that leaves the box; a degenerate one is replaced.
+        const auto at = objects_at(stars_[i].point);
+        if (std::find(at.begin(), at.end(), static_cast<std::int32_t>(o)) != at.end()) continue;
+        const Point size{box.max[0] - box.min[0], box.max[1] - box.min[1],
+                         box.max[2] - box.min[2]};
+        for (int attempt = 1; attempt <= 16; ++attempt) {
+          const Point far = p + Point{size[0] * (2 + 0.37 * attempt),
+                                      size[1] * (1.1 + 0.61 * attempt),
+                                      size[2] * (3 - 0.13 * attempt) * (attempt % 2 ? 1 : -1)};
+          int winding = 0;
+          bool degenerate = false;
+          for (const int f : object.faces) {
+            const Sign s0 = face_planes_[f](p);
+            const Sign s1 = face_planes_[f](far);
+            const auto c = s.face_points(f);
+            if (s0 == s1 && s0 != Sign::Zero) continue;
+            bool hit = true;
+            bool edge = false;
+            for (std::size_t k = 0; k < c.size() && hit; ++k) {
+              const Sign t = orient3d(s.point(c[k]), s.point(c[(k + 1) % c.size()]), p, far);
+              edge |= t == Sign::Zero;
+              const Sign inward = (s0 == Sign::Positive || s1 == Sign::Negative)
+                                      ? Sign::Negative
+                                      : Sign::Positive;
+              if (t != Sign::Zero && t != inward) hit = false;
+            }
+            if (!hit) continue;
+            if (edge || s0 == Sign::Zero || s1 == Sign::Zero) {
+              degenerate = true;
+              break;
+            }
+            winding += s0 == Sign::Negative ? 1 : -1;
+          }
+          if (degenerate) continue;
+          inside_[i] = winding > 0;
+          break;
+        }
+      }
+    }
+  }
+  for (const auto flag : inside_) inside_count_ += flag;
+}
+
+}  // namespace sightline::internal

@@ -1,0 +1,132 @@
+// The generators of a scene as events see them: which edges can be silhouettes and when,
+// and which lines graze a corner.  Computed once per scene; shared by all viewpoints.
+
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "linespace/bvh_internal.h"
+#include "linespace/predicates.h"
+#include "linespace/scene.h"
+
+namespace sightline::internal {
+
+/// An edge with a free gap of more than half a turn around it: some lines graze there.
+///
+/// The faces at the edge lie in the wedge between half-planes A and B; a line through a
+/// point of the edge grazes iff it does not pass from the wedge into its opposite, that
+/// is, iff the viewpoint is not strictly inside one of the two.
+struct Ridge {
+  std::int32_t edge;
+  std::array<std::int32_t, 2> points;
+  /// Oriented so that the wedge is behind both.
+  PlaneSide a, b;
+  /// A foreign face touches the open edge: lines there need the general contact test.
+  bool touched;
+};
+
+/// The faces around a corner, touching ones of other objects included.
+struct Star {
+  std::int32_t point = -1;
+  std::vector<std::int32_t> faces;   ///< with the point on their boundary or inside
+  std::vector<std::int32_t> facets;  ///< of those faces that belong to `point`'s own
+  /// Rays along the sides at the point, as far end points: one per direction.
+  std::vector<std::int32_t> rays;
+  /// Each face as (ray, ray, facet), positions in `rays`, less than half a turn apart.
+  struct Sector {
+    std::int32_t from, to, facet;
+  };
+  std::vector<Sector> sectors;
+  /// The solid is locally the intersection of half-spaces: `sectors` are its faces.
+  bool convex = false;
+  /// Some face has the point in its inside: only lines in that plane can graze.
+  bool in_plane_only = false;
+  std::vector<std::int32_t> planes;  ///< then: those faces
+  /// A face of another object touches here: lines need the general contact test when it
+  /// is in their way.
+  bool touched = false;
+};
+
+class Generators {
+ public:
+  explicit Generators(const Scene& scene, int threads);
+
+  [[nodiscard]] const Scene& scene() const { return *scene_; }
+  [[nodiscard]] std::span<const Ridge> ridges() const { return ridges_; }
+  /// Ridge number of a scene edge, -1 when lines never graze it.
+  [[nodiscard]] int ridge_of_edge(int edge) const { return ridge_of_edge_[edge]; }
+  [[nodiscard]] std::span<const Star> stars() const { return stars_; }
+  /// Position in stars() of a corner point, -1 for other points.
+  [[nodiscard]] int star_of_point(int point) const { return star_of_point_[point]; }
+  /// The corner lies strictly inside a solid: it takes part in no event.
+  [[nodiscard]] bool inside_solid(int star) const { return inside_[star] != 0; }
+  [[nodiscard]] int inside_count() const { return inside_count_; }
+
+  /// Objects in which the point is a corner of a face, ascending.
+  [[nodiscard]] std::span<const std::int32_t> objects_at(int point) const {
+    return {object_ids_.data() + object_starts_[point],
+            static_cast<std::size_t>(object_starts_[point + 1] - object_starts_[point])};
+  }
+  /// Closed, bounded inside, and convex up to folds along edges declared flat.
+  [[nodiscard]] bool convex_solid(int object) const { return convex_[object] != 0; }
+
+  [[nodiscard]] const Bvh& face_tree() const { return face_tree_; }
+  /// Over ridges(); leaves hold ridge numbers.
+  [[nodiscard]] const Bvh& ridge_tree() const { return ridge_tree_; }
+  [[nodiscard]] const PlaneSide& face_plane(int face) const { return face_planes_[face]; }
+
+ private:
+  void find_convex_solids();
+  void find_ridges();
+  void find_stars();
+  void find_inside();
+
+  const Scene* scene_;
+  Bvh face_tree_;
+  Bvh ridge_tree_;
+  std::vector<PlaneSide> face_planes_;
+  std::vector<Ridge> ridges_;
+  std::vector<std::int32_t> ridge_of_edge_;
+  std::vector<Star> stars_;
+  std::vector<std::int32_t> star_of_point_;
+  std::vector<std::uint8_t> inside_;
+  int inside_count_ = 0;
+  std::vector<std::uint8_t> convex_;
+  std::vector<std::int32_t> object_starts_, object_ids_;
+};
+
+/// The three points that give a face its plane.
+[[nodiscard]] inline std::array<std::int32_t, 3> plane_points(const Scene& scene, int face) {
+  const auto p = scene.face_points(face);
+  return {p[0], p[1], p[2]};
+}
+
+[[nodiscard]] inline PlaneThrough face_plane_through(const Scene& scene, int face) {
+  const auto p = scene.face_points(face);
+  return {scene.point(p[0]), scene.point(p[1]), scene.point(p[2])};
+}
+
+/// A plane through p and q parallel to a coordinate axis that the face's plane is not
+/// parallel to: whatever lies in the face's plane is told apart by it as by the line pq.
+/// Positive on the face's inside when p, q are consecutive corners.
+class InPlaneSide {
+ public:
+  InPlaneSide(const Scene& scene, int face);
+  /// Which side of line pq point x lies on, for p, q, x in the face's plane: Positive to
+  /// the left, seen from the face's front.
+  [[nodiscard]] Sign operator()(const Point& p, const Point& q, const Point& x) const;
+
+ private:
+  int axis_ = 0;
+  Sign orientation_ = Sign::Zero;
+};
+
+/// Where a point of a face's plane lies: strictly inside the polygon, on its boundary, or
+/// outside.
+enum class PointInFace : std::uint8_t { Outside, Boundary, Inside };
+[[nodiscard]] PointInFace locate_in_plane(const Scene& scene, int face, const Point& x);
+
+}  // namespace sightline::internal

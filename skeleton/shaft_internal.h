@@ -1,0 +1,186 @@
+// Conservative box tests in double: against the triangle between a vertex and an edge,
+// and against the shadow of a convex occluder.  "Outside" and "inside" are proofs, valid
+// whatever the rounding; "maybe" costs only time.
+
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "linespace/bvh_internal.h"
+#include "linespace/scene.h"
+
+namespace sightline::internal {
+
+inline constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2;
+
+/// A box as centre and half sizes, rounded so that it contains the original.
+struct CentredBox {
+  std::array<double, 3> centre, half;
+};
+
+inline CentredBox centred(const Box& box) {
+  CentredBox c;
+  for (int i = 0; i < 3; ++i) {
+    c.centre[i] = 0.5 * (box.min[i] + box.max[i]);
+    // The subtractions below are each rounded once: 4 units cover both.
+    const double h =
+        std::fmax(box.max[i] - c.centre[i], c.centre[i] - box.min[i]);
+    c.half[i] = h * (1 + 4 * kUnitRoundoff);
+  }
+  return c;
+}
+
+/// The affine function f(x) = normal . (x - origin) + offset with every rounding error
+/// accounted for, where the box is given relative to the origin.
+///
+/// The normal is a difference of products known to within `slack` a component, so that
+/// over a box with centre c and half sizes h, both relative to the origin,
+///   |f(x) - (normal . c + offset)| <= sum |normal_i| h_i + slack_i (|c_i| + h_i) + error.
+struct BoundedPlane {
+  std::array<double, 3> normal;
+  std::array<double, 3> slack;
+  double offset = 0;
+  double error = 0;
+
+  /// Largest value over the box is surely negative.
+  [[nodiscard]] bool negative_on(const std::array<double, 3>& c,
+                                 const std::array<double, 3>& h) const {
+    double value = offset + error;
+    for (int i = 0; i < 3; ++i) {
+      value += normal[i] * c[i] + std::abs(normal[i]) * h[i] +
+               slack[i] * (std::abs(c[i]) + h[i]);
+    }
+    return value < 0;
+  }
+  /// Smallest value over the box is surely positive.
+  [[nodiscard]] bool positive_on(const std::array<double, 3>& c,
+                                 const std::array<double, 3>& h) const {
+    double value = offset - error;
+    for (int i = 0; i < 3; ++i) {
+      value += normal[i] * c[i] - std::abs(normal[i]) * h[i] -
+               slack[i] * (std::abs(c[i]) + h[i]);
+    }
+    return value > 0;
+  }
+};
+
+/// The plane through origin, p and q with f > 0 in front of (origin, p, q).  With u and w
+/// the differences to p and q, a component u_j w_k - u_k w_j is computed to within
+/// 5 e (|u_j w_k| + |u_k w_j|) (two roundings of differences, one of product, one of
+/// the sum); negative_on adds at most 12 e of each term when it sums up, and the centre
+/// relative to the origin was rounded once.  32 e covers all of it.
+inline BoundedPlane plane_from(const Point& origin, const Point& p, const Point& q) {
+  const Point u = p - origin;
+  const Point w = q - origin;
+  BoundedPlane plane;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    const double a = u[j] * w[k];
+    const double b = u[k] * w[j];
+    plane.normal[i] = a - b;
+    plane.slack[i] = 32 * kUnitRoundoff * (std::abs(a) + std::abs(b));
+  }
+  return plane;
+}
+
+/// The plane through a, b and c, as a function of positions relative to `origin`.
+inline BoundedPlane plane_seen_from(const Point& origin, const Point& a, const Point& b,
+                                    const Point& c) {
+  BoundedPlane plane = plane_from(a, b, c);
+  const Point d = origin - a;
+  for (int i = 0; i < 3; ++i) {
+    plane.offset += plane.normal[i] * d[i];
+    plane.error +=
+        (plane.slack[i] + 8 * kUnitRoundoff * std::abs(plane.normal[i])) * std::abs(d[i]);
+  }
+  plane.error *= 1 + 8 * kUnitRoundoff;
+  return plane;
+}
+
+/// The set of lines' common triangle: from a vertex to an edge.
+class Shaft {
+ public:
+  Shaft(const Point& v, const Point& e0, const Point& e1) : v_(v) {
+    const Point u = e0 - v;
+    const Point w = e1 - v;
+    for (int i = 0; i < 3; ++i) {
+      min_[i] = std::fmin(v[i], std::fmin(e0[i], e1[i]));
+      max_[i] = std::fmax(v[i], std::fmax(e0[i], e1[i]));
+    }
+    const Point n = u.cross(w);
+    add_axis(n, u, w);
+    add_axis(n.cross(u), u, w);
+    add_axis(n.cross(w), u, w);
+    add_axis(n.cross(w - u), u, w);
+  }
+
+  /// False proves that no point of the closed box lies in the closed triangle.
+  [[nodiscard]] bool may_meet(const Box& box) const {
+    std::array<double, 3> c, h;
+    for (int i = 0; i < 3; ++i) {
+      if (box.min[i] > max_[i] || box.max[i] < min_[i]) return false;
+      const double centre = 0.5 * (box.min[i] + box.max[i]);
+      h[i] = std::fmax(box.max[i] - centre, centre - box.min[i]);
+      c[i] = centre - v_[i];
+    }
+    for (const Axis& axis : axes_) {
+      double middle = 0;
+      double radius = 0;
+      for (int i = 0; i < 3; ++i) {
+        const double m = std::abs(axis.direction[i]);
+        middle += axis.direction[i] * c[i];
+        // 16 e covers the roundings of c, h, the products and the sums.
+        radius += m * (h[i] + 16 * kUnitRoundoff * (std::abs(c[i]) + h[i]));
+      }
+      if (middle - radius > axis.max || middle + radius < axis.min) return false;
+    }
+    return true;
+  }
+
+ private:
+  /// Any direction separates if the projections are disjoint, however it was computed.
+  struct Axis {
+    Point direction;
+    double min, max;
+  };
+
+  void add_axis(const Point& m, const Point& u, const Point& w) {
+    double pu = 0, pw = 0, eu = 0, ew = 0;
+    for (int i = 0; i < 3; ++i) {
+      pu += m[i] * u[i];
+      pw += m[i] * w[i];
+      eu += std::abs(m[i] * u[i]);
+      ew += std::abs(m[i] * w[i]);
+    }
+    const double error = 16 * kUnitRoundoff * std::fmax(eu, ew);
+    axes_[count_++] = {m, std::fmin(0.0, std::fmin(pu, pw)) - error,
+                       std::fmax(0.0, std::fmax(pu, pw)) + error};
+  }
+
+  Point v_;
+  std::array<double, 3> min_, max_;
+  std::array<Axis, 4> axes_;
+  int count_ = 0;
+};
+
+/// Where a convex occluder hides everything from a point: inside all its planes.
+struct Shadow {
+  int occluder = -1;
+  std::vector<BoundedPlane> planes;  ///< relative to the viewpoint, negative inside
+
+  /// True proves that every segment from the viewpoint to a point of the box passes
+  /// through the occluder's interior.
+  [[nodiscard]] bool hides(const std::array<double, 3>& c,
+                           const std::array<double, 3>& h) const {
+    for (const BoundedPlane& plane : planes) {
+      if (!plane.negative_on(c, h)) return false;
+    }
+    return !planes.empty();
+  }
+};
+
+}  // namespace sightline::internal

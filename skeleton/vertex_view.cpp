@@ -1,0 +1,794 @@
+#include "skeleton/vertex_view_internal.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include "skeleton/degenerate_pair_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+constexpr std::array<double, 3> kPointHalf{0, 0, 0};
+
+std::array<double, 3> relative(const Point& p, const Point& origin) {
+  return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
+}
+
+// Sign of a bounded value, by the exact predicate where the bound is too weak.
+Sign sign_of(const BoundedValue& value, const PlaneSide& plane, const Point& p) {
+  if (std::abs(value.value) > value.error || value.error == 0) {
+    ++thread_stage_counts().by_double;
+    return value.value > 0 ? Sign::Positive : value.value < 0 ? Sign::Negative : Sign::Zero;
+  }
+  return plane(p);
+}
+
+bool contains(std::span<const std::int32_t> sorted, std::int32_t x) {
+  return std::binary_search(sorted.begin(), sorted.end(), x);
+}
+
+}  // namespace
+
+std::uint32_t VertexView::add_node(NodeKind kind, bool self, bool end,
+                                   std::span<const Generator> generators,
+                                   const std::array<Point, 2>& segment) {
+  SkeletonNode node;
+  node.kind = kind;
+  node.self = self;
+  node.end = end;
+  node.first_generator = static_cast<std::uint32_t>(pool.size());
+  node.generator_count = static_cast<std::uint16_t>(generators.size());
+  node.segment = segment;
+  pool.insert(pool.end(), generators.begin(), generators.end());
+  nodes.push_back(node);
+  return static_cast<std::uint32_t>(nodes.size() - 1);
+}
+
+// By edge, then along it.
+void VertexView::sort_arcs() {
+  std::vector<std::uint32_t> order(arcs.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
+    const SkeletonArc& a = arcs[i];
+    const SkeletonArc& b = arcs[j];
+    if (a.edge != b.edge) return a.edge < b.edge;
+    if (a.range[0] != b.range[0]) return a.range[0] < b.range[0];
+    return i < j;
+  });
+  std::vector<SkeletonArc> sorted_arcs;
+  std::vector<CutInterval> sorted_intervals;
+  for (const auto i : order) {
+    sorted_arcs.push_back(arcs[i]);
+    sorted_intervals.push_back(intervals[i]);
+  }
+  arcs = std::move(sorted_arcs);
+  intervals = std::move(sorted_intervals);
+}
+
+// Angular cover test: seen along the line every sector is a convex cone of the plane; the
+// cones leave a gap iff the counter-clockwise side of some ray is covered by none.
+StarContact star_contact(const Scene& scene, const Star& star, const Point& x) {
+  const Point& v = scene.point(star.point);
+  const std::size_t n = star.rays.size();
+  std::vector<std::int8_t> turn(n * n, 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const Sign s = orient3d(v, scene.point(star.rays[i]), scene.point(star.rays[j]), x);
+      turn[i * n + j] = static_cast<std::int8_t>(s);
+      turn[j * n + i] = static_cast<std::int8_t>(-s);
+    }
+  }
+  for (const auto& sector : star.sectors) {
+    if (turn[sector.from * n + sector.to] == 0) return StarContact::Degenerate;
+  }
+  // Two rays that look alike along the line but are no one sector's: their sectors share
+  // a boundary in the picture, which leaves no gap; equal or opposite is told apart by
+  // any third ray.
+  const auto same = [&](std::size_t i, std::size_t j) {
+    if (i == j) return true;
+    if (turn[i * n + j] != 0) return false;
+    for (std::size_t k = 0; k < n; ++k) {
+      if (turn[i * n + k] != 0) return turn[i * n + k] == turn[j * n + k];
+    }
+    return true;
+  };
+  for (std::size_t k = 0; k < n; ++k) {
+    bool covered = false;
+    for (const auto& sector : star.sectors) {
+      std::size_t a = sector.from;
+      std::size_t b = sector.to;
+      if (turn[a * n + b] < 0) std::swap(a, b);
+      if (same(a, k) || (turn[a * n + k] > 0 && turn[k * n + b] > 0)) {
+        covered = true;
+        break;
+      }
+    }
+    if (!covered) return StarContact::Grazes;
+  }
+  return star.sectors.empty() ? StarContact::Grazes : StarContact::Blocked;
+}
+
+VertexViewer::VertexViewer(const Generators& generators, const Selection& selection)
+    : g_(generators),
+      scene_(generators.scene()),
+      selection_(selection),
+      facet_stamp_(scene_.facets().size(), 0),
+      shadow_index_(scene_.objects().size(), -1),
+      shadow_stamp_(scene_.objects().size(), 0) {}
+
+struct VertexViewer::Pair {
+  int ridge;
+  const Ridge* r;
+  const Edge* edge;
+  const Point& e0;
+  const Point& e1;
+  PlaneSide plane;  // of the viewpoint and the edge
+  CutUnion closed;  // where the edge is hidden or the viewpoint does not support
+  std::vector<Cut> cuts{};
+  std::vector<std::int32_t> faces{};  // that meet the triangle: all of them
+  std::vector<std::int32_t> edge_facets{};
+  bool degenerate = false;
+
+  void close(const Cut& from, const Cut& to) { closed.add(from, to); }
+  Cut keep(const Cut& cut) {
+    cuts.push_back(cut);
+    return cut;
+  }
+};
+
+void VertexViewer::prepare(int star) {
+  star_id_ = star;
+  star_ = &g_.stars()[star];
+  point_ = star_->point;
+  at_ = scene_.point(point_);
+  ++stamp_;
+  for (const int f : star_->facets) facet_stamp_[f] = stamp_;
+  const auto objects = g_.objects_at(point_);
+  own_objects_.assign(objects.begin(), objects.end());
+  shadows_.clear();
+  recent_.clear();
+  star_planes_.clear();
+  if (star_->convex) {
+    for (const int f : star_->faces) {
+      const auto [a, b, c] = face_plane_through(scene_, f);
+      star_planes_.push_back(plane_seen_from(at_, a, b, c));
+    }
+  }
+}
+
+// The shadow of a convex solid: behind its front faces, inside the cone of its outline.
+const Shadow* VertexViewer::shadow_of(int object) {
+  if (!g_.convex_solid(object)) return nullptr;
+  if (shadow_stamp_[object] == stamp_) {
+    const int i = shadow_index_[object];
+    return i < 0 ? nullptr : &shadows_[i];
+  }
+  shadow_stamp_[object] = stamp_;
+  shadow_index_[object] = -1;
+  if (contains(own_objects_, object)) return nullptr;
+  Shadow shadow;
+  shadow.occluder = object;
+  std::vector<std::array<std::int32_t, 3>> sides;  // smaller id, larger id, direction
+  for (const int f : scene_.objects()[object].faces) {
+    if (g_.face_plane(f)(at_) != Sign::Positive) continue;
+    const auto [a, b, c] = face_plane_through(scene_, f);
+    shadow.planes.push_back(plane_seen_from(at_, a, b, c));
+    const auto p = scene_.face_points(f);
+    for (std::size_t k = 0; k < p.size(); ++k) {
+      const int from = p[k];
+      const int to = p[(k + 1) % p.size()];
+      sides.push_back({std::min(from, to), std::max(from, to), from < to});
+    }
+  }
+  if (shadow.planes.empty()) return nullptr;
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (i + 1 < sides.size() && sides[i][0] == sides[i + 1][0] &&
+        sides[i][1] == sides[i + 1][1]) {
+      ++i;
+      continue;
+    }
+    const bool forward = sides[i][2] != 0;
+    const Point& p = scene_.point(sides[i][forward ? 0 : 1]);
+    const Point& q = scene_.point(sides[i][forward ? 1 : 0]);
+    // The face lies to the left of its side pq: negative for the plane (viewpoint, p, q).
+    shadow.planes.push_back(plane_from(at_, p, q));
+  }
+  shadow_index_[object] = static_cast<int>(shadows_.size());
+  shadows_.push_back(std::move(shadow));
+  return &shadows_.back();
+}
+
+bool VertexViewer::hidden(const std::array<double, 3>& centre,
+                          const std::array<double, 3>& half) {
+  // Lines into the viewpoint's own solid, forwards or backwards, support nothing.
+  if (star_->convex) {
+    const auto inside = [&](const BoundedPlane& p) { return p.negative_on(centre, half); };
+    const auto beyond = [&](const BoundedPlane& p) { return p.positive_on(centre, half); };
+    if (std::all_of(star_planes_.begin(), star_planes_.end(), inside)) return true;
+    if (std::all_of(star_planes_.begin(), star_planes_.end(), beyond)) return true;
+  }
+  for (std::size_t i = 0; i < recent_.size(); ++i) {
+    if (shadows_[recent_[i]].hides(centre, half)) {
+      std::rotate(recent_.begin(), recent_.begin() + static_cast<std::ptrdiff_t>(i),
+                  recent_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      return true;
+    }
+  }
+  return false;
+}
+
+// The nearest face that plain double arithmetic finds on the way: a proposal only.
+int VertexViewer::first_face_hit(const Point& target) const {
+  const Point d = target - at_;
+  std::array<double, 3> inverse;
+  for (int i = 0; i < 3; ++i) inverse[i] = 1 / d[i];
+  double nearest = 1;
+  int hit = -1;
+  const Bvh& tree = g_.face_tree();
+  if (tree.empty()) return -1;
+  const auto entry = [&](const Box& box) {
+    double t0 = 0, t1 = nearest;
+    for (int i = 0; i < 3; ++i) {
+      double a = (box.min[i] - at_[i]) * inverse[i];
+      double b = (box.max[i] - at_[i]) * inverse[i];
+      if (a > b) std::swap(a, b);
+      if (a > t0) t0 = a;
+      if (b < t1) t1 = b;
+    }
+    return t0 <= t1 ? t0 : 2.0;
+  };
+  std::uint32_t stack[128];
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Bvh::Node& node = tree.node(stack[--top]);
+    if (entry(node.box) > nearest) continue;
+    if (node.count == 0) {
+      const double left = entry(tree.node(node.first).box);
+      const double right = entry(tree.node(node.first + 1).box);
+      const bool left_first = left <= right;
+      stack[top++] = node.first + (left_first ? 1 : 0);
+      stack[top++] = node.first + (left_first ? 0 : 1);
+      continue;
+    }
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      const int f = static_cast<int>(tree.items()[node.first + i]);
+      const auto corners = scene_.face_points(f);
+      const Point& a = scene_.point(corners[0]);
+      const Point n = (scene_.point(corners[1]) - a).cross(scene_.point(corners[2]) - a);
+      const double slope = n.dot(d);
+      const double t = n.dot(a - at_) / slope;
+      if (!(t > 1e-9 && t < nearest)) continue;
+      bool inside = true;
+      for (std::size_t k = 0; k < corners.size() && inside; ++k) {
+        const Point p = scene_.point(corners[k]) - at_;
+        const Point q = scene_.point(corners[(k + 1) % corners.size()]) - at_;
+        inside = p.cross(q).dot(d) * slope >= 0;
+      }
+      if (inside) {
+        nearest = t;
+        hit = f;
+      }
+    }
+  }
+  return hit;
+}
+
+bool VertexViewer::hidden_behind_proposal(const Point& target,
+                                          const std::array<double, 3>& centre,
+                                          const std::array<double, 3>& half) {
+  const int face = first_face_hit(target);
+  if (face < 0) return false;
+  const int object = scene_.faces()[face].object;
+  const bool known = shadow_stamp_[object] == stamp_;
+  const Shadow* shadow = shadow_of(object);
+  if (shadow == nullptr) return false;
+  const auto index = shadow_index_[object];
+  if (known && std::find(recent_.begin(), recent_.end(), index) != recent_.end()) return false;
+  constexpr std::size_t kRecent = 12;
+  if (recent_.size() >= kRecent) recent_.pop_back();
+  recent_.insert(recent_.begin(), index);
+  return shadow->hides(centre, half);
+}
+
+VertexView VertexViewer::view(int star) {
+  VertexView out;
+  prepare(star);
+  if (g_.inside_solid(star)) return out;
+  visit_ridges(out);
+  add_line_ups(out);
+  return out;
+}
+
+void VertexViewer::visit_ridges(VertexView& out) {
+  const Bvh& tree = g_.ridge_tree();
+  if (tree.empty()) return;
+  std::uint32_t stack[128];
+  int top = 0;
+  stack[top++] = 0;
+  std::vector<int> found;
+  while (top > 0) {
+    const Bvh::Node& node = tree.node(stack[--top]);
+    const CentredBox box = centred(node.box);
+    const Point middle{box.centre[0], box.centre[1], box.centre[2]};
+    std::array<double, 3> c = relative(middle, at_);
+    if (!star_->in_plane_only) {
+      if (hidden(c, box.half)) continue;
+      if (hidden_behind_proposal(middle, c, box.half)) continue;
+    }
+    if (node.count == 0) {
+      stack[top++] = node.first + 1;
+      stack[top++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      view_ridge(static_cast<int>(tree.items()[node.first + i]), out);
+    }
+  }
+  out.sort_arcs();
+}
+
+void VertexViewer::view_ridge(int ridge, VertexView& out) {
+  if (!selection_.has(ridge)) return;
+  const Ridge& r = g_.ridges()[ridge];
+  if (r.points[0] == point_ || r.points[1] == point_) return;
+  const Sign a = r.a(at_);
+  const Sign b = r.b(at_);
+  if (a == b && a != Sign::Zero) return;
+  const Point& e0 = scene_.point(r.points[0]);
+  const Point& e1 = scene_.point(r.points[1]);
+  if (star_->in_plane_only) {
+    const bool in_plane =
+        std::any_of(star_->planes.begin(), star_->planes.end(), [&](int f) {
+          return g_.face_plane(f)(e0) == Sign::Zero && g_.face_plane(f)(e1) == Sign::Zero;
+        });
+    if (!in_plane) return;
+  } else {
+    std::array<double, 3> low, high, c, h;
+    const auto c0 = relative(e0, at_);
+    const auto c1 = relative(e1, at_);
+    const auto ends_hidden = [&](const Shadow& s) {
+      return s.hides(c0, kPointHalf) && s.hides(c1, kPointHalf);
+    };
+    for (const int s : recent_) {
+      if (ends_hidden(shadows_[s])) return;
+    }
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::fmin(c0[i], c1[i]);
+      high[i] = std::fmax(c0[i], c1[i]);
+      c[i] = 0.5 * (low[i] + high[i]);
+      h[i] = 0.5 * (high[i] - low[i]);
+    }
+    const Point middle = 0.5 * (e0 + e1);
+    hidden_behind_proposal(middle, c, h);
+    if (!recent_.empty() && ends_hidden(shadows_[recent_[0]])) return;
+  }
+  const Edge& edge = scene_.edges()[r.edge];
+  if (g_.convex_solid(edge.object) && contains(own_objects_, edge.object)) return;
+  if (collinear(at_, e0, e1)) return;  // along the edge: no family of lines
+
+  Pair pair{ridge,
+            &r,
+            &edge,
+            e0,
+            e1,
+            PlaneSide({at_, e0, e1}),
+            CutUnion(scene_, {e0, e1})};
+  for (const Edge::Side& side : edge.sides) {
+    pair.edge_facets.push_back(scene_.faces()[side.face].facet);
+  }
+  pair.degenerate = a == Sign::Zero || b == Sign::Zero || r.touched || star_->touched;
+  if (star_->convex) add_unsupported_convex(pair);
+  if (pair.closed.covers_all()) return;
+
+  const Shaft shaft(at_, e0, e1);
+  const Bvh& tree = g_.face_tree();
+  const Point toward = 0.5 * (e0 + e1) - at_;
+  std::uint32_t stack[128];
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Bvh::Node& node = tree.node(stack[--top]);
+    if (!shaft.may_meet(node.box)) continue;
+    if (node.count == 0) {
+      const auto depth = [&](const Box& box) {
+        double d = 0;
+        for (int i = 0; i < 3; ++i) d += toward[i] * (box.min[i] + box.max[i]);
+        return d;
+      };
+      const bool left_first =
+          depth(tree.node(node.first).box) <= depth(tree.node(node.first + 1).box);
+      stack[top++] = node.first + (left_first ? 1 : 0);
+      stack[top++] = node.first + (left_first ? 0 : 1);
+      continue;
+    }
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      add_blocker(pair, static_cast<int>(tree.items()[node.first + i]));
+    }
+    if (pair.closed.covers_all()) return;
+  }
+  auto open = pair.closed.complement();
+  if (open.empty()) return;
+  if (!star_->convex && !pair.degenerate) {
+    add_unsupported_general(pair);
+    open = pair.closed.complement();
+    if (open.empty()) return;
+  }
+  if (pair.degenerate || !ends_are_simple(pair, open)) {
+    add_degenerate_pair(g_, *star_, r, pair.plane, pair.closed, pair.faces, out);
+    return;
+  }
+  const bool self = own_objects_.size() == 1 && own_objects_[0] == edge.object;
+  for (const CutInterval& i : open) {
+    SkeletonArc arc;
+    arc.vertex = point_;
+    arc.edge = r.edge;
+    arc.self = self;
+    arc.range = {i.from.parameter(), i.to.parameter()};
+    arc.nodes = {end_node(pair, i.from, out), end_node(pair, i.to, out)};
+    out.arcs.push_back(arc);
+    out.intervals.push_back(i);
+  }
+}
+
+// The face's trace in the plane of viewpoint and edge is a segment; what it hides is the
+// part of the edge within its two ends' directions and behind the face's plane.
+void VertexViewer::add_blocker(Pair& pair, int face) {
+  pair.faces.push_back(face);
+  const Face& f = scene_.faces()[face];
+  if (facet_stamp_[f.facet] == stamp_) return;
+  if (std::find(pair.edge_facets.begin(), pair.edge_facets.end(), f.facet) !=
+      pair.edge_facets.end()) {
+    return;
+  }
+  if (g_.convex_solid(f.object) &&
+      (f.object == pair.edge->object || contains(own_objects_, f.object))) {
+    return;  // a line that supports a convex solid does not meet it elsewhere
+  }
+  const auto corners = scene_.face_points(face);
+  const std::size_t n = corners.size();
+  std::array<Sign, 64> small;
+  std::vector<Sign> large;
+  Sign* signs = small.data();
+  if (n > small.size()) {
+    large.resize(n);
+    signs = large.data();
+  }
+  bool front = false;
+  bool back = false;
+  bool stray = false;  // a corner other than the edge's ends lies in the plane
+  for (std::size_t k = 0; k < n; ++k) {
+    if (corners[k] == pair.r->points[0] || corners[k] == pair.r->points[1]) {
+      signs[k] = Sign::Zero;
+      continue;
+    }
+    signs[k] = pair.plane(scene_.point(corners[k]));
+    front |= signs[k] == Sign::Positive;
+    back |= signs[k] == Sign::Negative;
+    stray |= signs[k] == Sign::Zero;
+  }
+  if (stray) {
+    pair.degenerate = true;
+    return;
+  }
+  if (!front || !back) return;
+  const PlaneSide& face_plane = g_.face_plane(face);
+  const Sign here = face_plane(at_);
+  if (here == Sign::Zero) {
+    pair.degenerate = true;  // seen edge-on: hides one line at most
+    return;
+  }
+  const BoundedValue value0 = face_plane.value(pair.e0);
+  const BoundedValue value1 = face_plane.value(pair.e1);
+  const Sign there0 = sign_of(value0, face_plane, pair.e0);
+  const Sign there1 = sign_of(value1, face_plane, pair.e1);
+  if (there0 != -here && there1 != -here) return;  // wholly in front of the face
+
+  // The trace's two ends, counter-clockwise around the viewpoint from `from` to `to`.
+  Cut from, to;
+  bool none = false;
+  bool from_behind = false;
+  bool to_behind = false;
+  for (std::size_t k = 0; k < n && !none; ++k) {
+    const std::size_t next = (k + 1) % n;
+    bool rising;  // from back to front: the trace begins here, seen from the face's front
+    int p, q;     // p in front of the plane, q behind
+    if (signs[k] == Sign::Zero) {
+      // The trace ends in an end point of the edge.
+      const Sign before = signs[(k + n - 1) % n];
+      const Sign after = signs[next];
+      if (before == after || before == Sign::Zero || after == Sign::Zero) continue;
+      rising = before == Sign::Negative;
+      const bool begins = rising == (here == Sign::Positive);
+      const bool at_start = corners[k] == pair.r->points[0];
+      const Cut cut = at_start ? start_cut() : end_cut();
+      (begins ? from : to) = cut;
+      none |= begins ? !at_start : at_start;
+      continue;
+    }
+    if (signs[next] == Sign::Zero || signs[next] == signs[k]) continue;
+    rising = signs[k] == Sign::Negative;
+    p = rising ? corners[next] : corners[k];
+    q = rising ? corners[k] : corners[next];
+    const bool begins = rising == (here == Sign::Positive);
+    const PlaneSide side_plane({at_, scene_.point(p), scene_.point(q)});
+    const BoundedValue x0 = side_plane.value(pair.e0);
+    const BoundedValue x1 = side_plane.value(pair.e1);
+    const Sign s0 = sign_of(x0, side_plane, pair.e0);
+    const Sign s1 = sign_of(x1, side_plane, pair.e1);
+    if (s0 == Sign::Zero || s1 == Sign::Zero) pair.degenerate = true;
+    // Negative s0: to the left of the ray to e0; positive s1: to the right of that to e1.
+    if (s0 == Sign::Negative && s1 == Sign::Positive) {
+      const int edge = scene_.edge_of_side(face, static_cast<int>(k));
+      Cut cut = make_cut(CutKind::Side, edge, {point_, std::min(p, q), std::max(p, q)}, x0, x1);
+      if (edge >= 0) {
+        // A side of a face at the viewpoint: its plane is that face's.
+        for (const Edge::Side& s : scene_.edges()[edge].sides) {
+          const int facet = scene_.faces()[s.face].facet;
+          if (facet_stamp_[facet] != stamp_) continue;
+          cut.kind = CutKind::Support;
+          cut.feature = facet;
+        }
+      }
+      pair.keep(cut);
+      (begins ? from : to) = cut;
+    } else if (begins) {
+      from_behind = s0 == Sign::Positive && s1 == Sign::Negative;
+      from = start_cut();
+      none |= !(s0 == Sign::Positive || (s0 == Sign::Zero && s1 == Sign::Positive));
+    } else {
+      to_behind = s0 == Sign::Positive && s1 == Sign::Negative;
+      to = end_cut();
+      none |= !(s1 == Sign::Negative || (s1 == Sign::Zero && s0 == Sign::Negative));
+    }
+  }
+  if (none || (from_behind && to_behind)) return;
+  if (there0 == -here && there1 == -here) {
+    pair.close(from, to);
+    return;
+  }
+  // The plane of the face separates the viewpoint from one part of the edge only.
+  if (there0 == Sign::Zero || there1 == Sign::Zero) {
+    pair.close(from, to);
+    return;
+  }
+  const Cut pierce = pair.keep(
+      make_cut(CutKind::Pierce, f.facet, plane_points(scene_, face), value0, value1));
+  const auto before = [&](const Cut& x, const Cut& y) {
+    return compare(scene_, {pair.e0, pair.e1}, x, y) == Sign::Negative;
+  };
+  if (there0 == -here) {
+    pair.close(from, before(pierce, to) ? pierce : to);
+  } else {
+    pair.close(before(from, pierce) ? pierce : from, to);
+  }
+}
+
+// d lies inside the cone iff it is behind all planes at once: an interval of the edge;
+// -d likewise in front of all.
+void VertexViewer::add_unsupported_convex(Pair& pair) {
+  for (const Sign inside : {Sign::Negative, Sign::Positive}) {
+    Cut from = start_cut();
+    Cut to = end_cut();
+    bool empty = false;
+    for (const int face : star_->faces) {
+      const PlaneSide& plane = g_.face_plane(face);
+      const BoundedValue x0 = plane.value(pair.e0);
+      const BoundedValue x1 = plane.value(pair.e1);
+      const Sign s0 = sign_of(x0, plane, pair.e0);
+      const Sign s1 = sign_of(x1, plane, pair.e1);
+      if (s0 == Sign::Zero || s1 == Sign::Zero) pair.degenerate = true;
+      if (s0 == inside && s1 == inside) continue;
+      if (s0 != inside && s1 != inside) {
+        empty = true;
+        continue;
+      }
+      if (s0 == Sign::Zero || s1 == Sign::Zero) continue;  // inside up to that end
+      const Cut cut = pair.keep(make_cut(CutKind::Support, scene_.faces()[face].facet,
+                                         plane_points(scene_, face), x0, x1));
+      const LineThrough line{pair.e0, pair.e1};
+      if (s0 == inside) {
+        if (compare(scene_, line, cut, to) == Sign::Negative) to = cut;
+      } else if (compare(scene_, line, from, cut) == Sign::Negative) {
+        from = cut;
+      }
+    }
+    if (!empty) pair.close(from, to);
+  }
+}
+
+// Between the planes of any two rays at the viewpoint the picture of the star along the
+// line does not change: one cover test for each stretch.
+void VertexViewer::add_unsupported_general(Pair& pair) {
+  const auto& rays = star_->rays;
+  const std::size_t n = rays.size();
+  struct Turn {
+    Sign before, after;  // at the edge's ends
+    Cut cut;
+  };
+  std::vector<Turn> turns(n * n);
+  std::vector<Cut> cuts;
+  const LineThrough line{pair.e0, pair.e1};
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const PlaneSide plane({at_, scene_.point(rays[i]), scene_.point(rays[j])});
+      const BoundedValue x0 = plane.value(pair.e0);
+      const BoundedValue x1 = plane.value(pair.e1);
+      Turn t{sign_of(x0, plane, pair.e0), sign_of(x1, plane, pair.e1), {}};
+      // Opposite rays span no plane: zero at both ends, and harmless.
+      if ((t.before == Sign::Zero || t.after == Sign::Zero) &&
+          !collinear(at_, scene_.point(rays[i]), scene_.point(rays[j]))) {
+        pair.degenerate = true;
+        return;
+      }
+      if (t.before != t.after) {
+        int facet = -1;
+        for (const auto& s : star_->sectors) {
+          const auto a = static_cast<std::size_t>(s.from);
+          const auto b = static_cast<std::size_t>(s.to);
+          if ((a == i && b == j) || (a == j && b == i)) facet = s.facet;
+        }
+        t.cut = make_cut(facet < 0 ? CutKind::Saddle : CutKind::Support, facet,
+                         {point_, rays[i], rays[j]}, x0, x1);
+        cuts.push_back(t.cut);
+        pair.keep(t.cut);
+      }
+      turns[i * n + j] = t;
+    }
+  }
+  std::sort(cuts.begin(), cuts.end(), [&](const Cut& a, const Cut& b) {
+    return compare(scene_, line, a, b) == Sign::Negative;
+  });
+  cuts.push_back(end_cut());
+  std::vector<std::int8_t> turn(n * n, 0);
+  Cut from = start_cut();
+  for (const Cut& to : cuts) {
+    if (compare(scene_, line, from, to) == Sign::Negative) {
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = i + 1; j < n; ++j) {
+          const Turn& t = turns[i * n + j];
+          const bool passed = t.before != t.after &&
+                              compare(scene_, line, t.cut, from) != Sign::Positive;
+          const Sign s = passed ? t.after : t.before;
+          turn[i * n + j] = static_cast<std::int8_t>(s);
+          turn[j * n + i] = static_cast<std::int8_t>(-s);
+        }
+      }
+      bool gap = false;
+      for (std::size_t k = 0; k < n && !gap; ++k) {
+        gap = std::none_of(
+            star_->sectors.begin(), star_->sectors.end(), [&](const Star::Sector& s) {
+              auto a = static_cast<std::size_t>(s.from);
+              auto b = static_cast<std::size_t>(s.to);
+              if (turn[a * n + b] < 0) std::swap(a, b);
+              if (turn[a * n + b] == 0) return false;
+              return a == k || (turn[a * n + k] > 0 && turn[k * n + b] > 0);
+            });
+      }
+      if (!gap) pair.close(from, to);
+    }
+    from = to;
+  }
+}
+
+// No two different cuts coincide at an end of an arc, and none is of an unknown feature.
+bool VertexViewer::ends_are_simple(const Pair& pair,
+                                   std::span<const CutInterval> open) const {
+  const LineThrough line{pair.e0, pair.e1};
+  const auto simple = [&](const Cut& end) {
+    if (end.kind == CutKind::Start || end.kind == CutKind::End) return true;
+    if (end.kind == CutKind::Side && end.feature < 0) return false;
+    return std::none_of(pair.cuts.begin(), pair.cuts.end(), [&](const Cut& other) {
+      if (other.hi < end.lo || other.lo > end.hi) return false;
+      if (other.plane == end.plane) return false;
+      if (other.kind == end.kind && other.feature == end.feature) return false;
+      return compare(scene_, line, other, end) == Sign::Zero;
+    });
+  };
+  return std::all_of(open.begin(), open.end(), [&](const CutInterval& i) {
+    return simple(i.from) && simple(i.to);
+  });
+}
+
+std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
+                                     VertexView& out) const {
+  const Generator vertex{GeneratorKind::Vertex, point_};
+  const Generator edge{GeneratorKind::Edge, pair.r->edge};
+  const auto only_on = [&](int object) {
+    return own_objects_.size() == 1 && own_objects_[0] == object;
+  };
+  const bool arc_self = only_on(pair.edge->object);
+  if (cut.kind == CutKind::Start || cut.kind == CutKind::End) {
+    const int far = pair.r->points[cut.kind == CutKind::End];
+    const Star& star = g_.stars()[g_.star_of_point(far)];
+    const StarContact there = star_contact(scene_, star, at_);
+    const StarContact here = star_contact(scene_, *star_, scene_.point(far));
+    const auto objects = g_.objects_at(far);
+    const bool self = own_objects_.size() == 1 && objects.size() == 1 &&
+                      own_objects_[0] == objects[0];
+    const Generator generators[] = {vertex, {GeneratorKind::Vertex, far}};
+    const bool degenerate =
+        there == StarContact::Degenerate || here == StarContact::Degenerate;
+    return out.add_node(degenerate ? NodeKind::Degenerate : NodeKind::VV, self,
+                        there == StarContact::Blocked || here == StarContact::Blocked,
+                        generators, {at_, scene_.point(far)});
+  }
+  const Point hit = pair.e0 + cut.parameter() * (pair.e1 - pair.e0);
+  switch (cut.kind) {
+    case CutKind::Side: {
+      const int object = scene_.edges()[cut.feature].object;
+      const Generator generators[] = {vertex, {GeneratorKind::Edge, cut.feature}, edge};
+      const bool self = arc_self || only_on(object) || object == pair.edge->object;
+      return out.add_node(NodeKind::VEE, self, false, generators, {at_, hit});
+    }
+    case CutKind::Support: {
+      const Generator generators[] = {vertex, {GeneratorKind::Face, cut.feature}, edge};
+      return out.add_node(NodeKind::FvE, arc_self, false, generators, {at_, hit});
+    }
+    case CutKind::Saddle: {
+      const Generator generators[] = {vertex, edge};
+      return out.add_node(NodeKind::Saddle, arc_self, false, generators, {at_, hit});
+    }
+    default: {
+      const Generator generators[] = {vertex, {GeneratorKind::Face, cut.feature}, edge};
+      return out.add_node(NodeKind::Pierce, arc_self, false, generators, {at_, hit});
+    }
+  }
+}
+
+// EVE: two arcs of this vertex in opposite directions that lie on one line.
+void VertexViewer::add_line_ups(VertexView& out) {
+  const std::size_t n = out.arcs.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const SkeletonArc a = out.arcs[i];
+    const Edge& e = scene_.edges()[a.edge];
+    const Point& e0 = scene_.point(e.points[0]);
+    const Point& e1 = scene_.point(e.points[1]);
+    const PlaneSide plane_e({at_, e0, e1});
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const SkeletonArc b = out.arcs[j];
+      if (b.edge == a.edge) continue;
+      const Edge& f = scene_.edges()[b.edge];
+      const Point& f0 = scene_.point(f.points[0]);
+      const Point& f1 = scene_.point(f.points[1]);
+      const Sign s0 = plane_e(f0);
+      const Sign s1 = plane_e(f1);
+      if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) continue;
+      const PlaneSide plane_f({at_, f0, f1});
+      const Sign t0 = plane_f(e0);
+      const Sign t1 = plane_f(e1);
+      if (t0 == t1 || t0 == Sign::Zero || t1 == Sign::Zero) continue;
+      // The common line of the two planes meets both edges.  The crossing of f, from
+      // front to back of e's plane, is to the right of the ray to e0 iff it lies behind.
+      if ((s0 == Sign::Positive ? t0 : -t0) != Sign::Positive) continue;
+      const Cut on_e = line_up_cut({e0, e1}, plane_f, f.points);
+      const Cut on_f = line_up_cut({f0, f1}, plane_e, e.points);
+      if (!inside_arc({e0, e1}, out.intervals[i], on_e)) continue;
+      if (!inside_arc({f0, f1}, out.intervals[j], on_f)) continue;
+      const Generator generators[] = {{GeneratorKind::Edge, a.edge},
+                                      {GeneratorKind::Vertex, point_},
+                                      {GeneratorKind::Edge, b.edge}};
+      const bool self = a.self || b.self || e.object == f.object;
+      out.add_node(NodeKind::EVE, self, false, generators,
+                   {e0 + on_e.parameter() * (e1 - e0), f0 + on_f.parameter() * (f1 - f0)});
+    }
+  }
+}
+
+// Where the plane of the viewpoint and points q crosses the edge.
+Cut VertexViewer::line_up_cut(const LineThrough& edge, const PlaneSide& plane,
+                              const std::array<std::int32_t, 2>& q) const {
+  return make_cut(CutKind::Side, -1, {point_, std::min(q[0], q[1]), std::max(q[0], q[1])},
+                  plane.value(edge.from), plane.value(edge.to));
+}
+
+bool VertexViewer::inside_arc(const LineThrough& edge, const CutInterval& arc,
+                              const Cut& cut) const {
+  return compare(scene_, edge, arc.from, cut) == Sign::Negative &&
+         compare(scene_, edge, cut, arc.to) == Sign::Negative;
+}
+
+}  // namespace sightline::internal

@@ -1,0 +1,95 @@
+// What one vertex sees: the EV arcs of a viewpoint that is a corner of the scene, with the
+// extremal stabbing lines at their ends.
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "skeleton/edge_cuts_internal.h"
+#include "skeleton/ev_skeleton.h"
+#include "skeleton/generators_internal.h"
+#include "skeleton/shaft_internal.h"
+
+namespace sightline::internal {
+
+/// Arcs of one vertex; node numbers and generator positions are local to the view.
+struct VertexView {
+  std::vector<SkeletonArc> arcs;
+  std::vector<SkeletonNode> nodes;
+  std::vector<Generator> pool;
+  std::vector<CutInterval> intervals;  ///< exact ranges of `arcs`
+  /// Some line here has more contacts than it needs, or one is in the plane of a face.
+  bool degenerate = false;
+
+  std::uint32_t add_node(NodeKind kind, bool self, bool end,
+                         std::span<const Generator> generators,
+                         const std::array<Point, 2>& segment);
+  void sort_arcs();
+};
+
+/// Which ridges take part.
+struct Selection {
+  std::vector<std::uint8_t> ridges;  ///< empty: all
+  [[nodiscard]] bool has(int ridge) const { return ridges.empty() || ridges[ridge] != 0; }
+};
+
+/// How a line through a star's point meets the star.
+enum class StarContact : std::uint8_t { Grazes, Blocked, Degenerate };
+
+/// The contact at the star's point of the line through it and x; Degenerate when the line
+/// lies in the plane of a face there or along an edge.
+[[nodiscard]] StarContact star_contact(const Scene& scene, const Star& star, const Point& x);
+
+/// Computes views, one at a time; keeps scratch, so one per thread.
+class VertexViewer {
+ public:
+  VertexViewer(const Generators& generators, const Selection& selection);
+
+  /// The view of stars()[star]: every arc of its point with a selected ridge.
+  [[nodiscard]] VertexView view(int star);
+
+ private:
+  struct Pair;  // one vertex and one ridge
+
+  void prepare(int star);
+  [[nodiscard]] bool hidden(const std::array<double, 3>& centre,
+                            const std::array<double, 3>& half);
+  bool hidden_behind_proposal(const Point& target, const std::array<double, 3>& centre,
+                              const std::array<double, 3>& half);
+  [[nodiscard]] const Shadow* shadow_of(int object);
+  [[nodiscard]] int first_face_hit(const Point& target) const;
+  void visit_ridges(VertexView& out);
+  void view_ridge(int ridge, VertexView& out);
+  void add_blocker(Pair& pair, int face);
+  void add_unsupported_convex(Pair& pair);
+  void add_unsupported_general(Pair& pair);
+  [[nodiscard]] bool ends_are_simple(const Pair& pair,
+                                     std::span<const CutInterval> open) const;
+  std::uint32_t end_node(const Pair& pair, const Cut& cut, VertexView& out) const;
+  void add_line_ups(VertexView& out);  // EVE
+  [[nodiscard]] Cut line_up_cut(const LineThrough& edge, const PlaneSide& plane,
+                                const std::array<std::int32_t, 2>& q) const;
+  [[nodiscard]] bool inside_arc(const LineThrough& edge, const CutInterval& arc,
+                                const Cut& cut) const;
+
+  const Generators& g_;
+  const Scene& scene_;
+  const Selection& selection_;
+  // The viewpoint at hand.
+  int star_id_ = -1;
+  const Star* star_ = nullptr;
+  int point_ = -1;
+  Point at_;
+  std::vector<std::uint32_t> facet_stamp_;  // == stamp_: facet at the viewpoint
+  std::uint32_t stamp_ = 0;
+  std::vector<std::int32_t> own_objects_;
+  std::vector<Shadow> shadows_;             // of this viewpoint
+  std::vector<std::int32_t> shadow_index_;  // by object; valid where shadow_stamp_ is
+  std::vector<std::uint32_t> shadow_stamp_;
+  std::vector<std::int32_t> recent_;        // positions in shadows_, best first
+  std::vector<BoundedPlane> star_planes_;
+};
+
+}  // namespace sightline::internal
