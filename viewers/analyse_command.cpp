@@ -1,0 +1,315 @@
+// `sightline analyse`: the main job, one scene into one folder.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <map>
+
+#include "linespace/mesh_io.h"
+#include "viewers/builtin_scene.h"
+#include "viewers/command_line.h"
+#include "viewers/drawing.h"
+#include "viewers/output_file.h"
+#include "viewers/page.h"
+#include "viewers/palette.h"
+#include "viewers/vtk_export.h"
+
+namespace sightline::viewers {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct AnalyseOptions : CommonOptions {
+  std::string folder = "sightline-report";
+  double budget = std::numeric_limits<double>::infinity();
+  std::vector<std::string> only;
+  std::vector<double> region;
+};
+
+/// Names what was done and how long it took.
+class StageLog {
+ public:
+  void done(const std::string& name) {
+    stages_.push_back({{"name", name},
+                       {"seconds", meter_.seconds()},
+                       {"peak_memory_bytes", peak_memory_bytes()}});
+    meter_ = Meter();
+  }
+  [[nodiscard]] const Json& stages() const { return stages_; }
+
+ private:
+  Meter meter_;
+  Json stages_ = Json::array();
+};
+
+/// How many strips and nodes a picture and a strip block take before they tell less.
+constexpr std::size_t kDrawnNodes = 4000, kDrawnArcs = 1500, kDrawnStrips = 400;
+
+/// The arcs of the vertex (or the edge) that has most arcs between objects.
+template <typename Key>
+std::vector<int> busiest(const Skeleton& skeleton, const Key& key) {
+  std::map<int, std::vector<int>> by_key;
+  for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
+    const SkeletonArc& arc = skeleton.arcs[i];
+    if (!arc.self) by_key[key(arc)].push_back(static_cast<int>(i));
+  }
+  std::vector<int> best;
+  for (auto& [id, arcs] : by_key) {
+    if (arcs.size() > best.size()) best = std::move(arcs);
+  }
+  return best;
+}
+
+std::vector<RuledStrip> strips_of(const Scene& scene, const OcclusionIndex& index,
+                                  const Skeleton& skeleton,
+                                  const std::vector<int>& arcs) {
+  std::vector<RuledStrip> strips;
+  for (const int arc : arcs) {
+    if (strips.size() == kDrawnStrips) break;
+    strips.push_back(ruled_strip(scene, index, skeleton, arc, 17));
+  }
+  return strips;
+}
+
+PagePicture strips_picture(const SceneView& view, const Scene& scene,
+                           const Skeleton& skeleton,
+                           const std::vector<RuledStrip>& strips) {
+  SceneView marked = view;
+  const double crowd = static_cast<double>(strips.size());
+  const auto opacity = static_cast<float>(std::clamp(6 / (crowd + 1), 0.05, 0.3));
+  for (const RuledStrip& strip : strips) {
+    add_strip(marked.drawing, scene, skeleton, strip, opacity);
+  }
+  return {"", encode_png(render(marked.drawing, marked.camera)), "", ""};
+}
+
+std::string node_legend(const Json& counts) {
+  std::string html = "<span class=legend>";
+  for (const auto& [kind, count] : counts.items()) {
+    if (!count.is_number() || count == 0) continue;
+    html += fmt::format("<span><i class=chip style=\"background:{}\"></i>{}</span>",
+                        hex(colour_of_kind(kind)), kind);
+  }
+  return html + "</span>";
+}
+
+std::string drawn_of(std::size_t drawn, std::size_t all, const char* what) {
+  return drawn == all ? fmt::format("All {} {}.", all, what)
+                      : fmt::format("{} of {} {}, evenly chosen.", drawn, all, what);
+}
+
+std::vector<PagePicture> draw_pictures(
+    const Scene& scene, const OcclusionIndex& index, const Skeleton& skeleton,
+    const std::optional<std::array<Point, 2>>& region) {
+  SceneView view = view_scene(scene);
+  if (region) add_box(view.drawing, *region, {0.84F, 0.15F, 0.24F});
+  std::vector<PagePicture> pictures;
+
+  SceneView overview = view;
+  const std::vector<int> nodes = evenly_spread(skeleton.nodes.size(), kDrawnNodes);
+  const double crowd = static_cast<double>(nodes.size());
+  add_nodes(overview.drawing, skeleton, nodes,
+            static_cast<float>(std::clamp(300 / (crowd + 1), 0.16, 0.9)),
+            crowd > 500 ? 1.1F : 1.8F);
+  pictures.push_back({"nodes.png", encode_png(render(overview.drawing, overview.camera)),
+                      "Extremal stabbing lines",
+                      drawn_of(nodes.size(), skeleton.nodes.size(),
+                               "lines, each between its outermost contacts") +
+                          " " + node_legend(node_counts(skeleton))});
+
+  const std::vector<int> at_vertex =
+      busiest(skeleton, [](const SkeletonArc& a) { return a.vertex; });
+  if (!at_vertex.empty()) {
+    const std::vector<RuledStrip> strips = strips_of(scene, index, skeleton, at_vertex);
+    PagePicture picture = strips_picture(view, scene, skeleton, strips);
+    picture.file = "vertex.png";
+    picture.title = "All events of one vertex";
+    const Point& v = scene.point(skeleton.arcs[at_vertex[0]].vertex);
+    picture.caption = fmt::format(
+        "{} The vertex at ({:.4g}, {:.4g}, {:.4g}) and the edges it sees as silhouettes: "
+        "each veil is one EV line set, out to the faces that end it. A light in that "
+        "vertex would cast these shadow edges.",
+        drawn_of(strips.size(), at_vertex.size(), "line sets"), v.x(), v.y(), v.z());
+    pictures.push_back(std::move(picture));
+  }
+  const std::vector<int> at_edge =
+      busiest(skeleton, [](const SkeletonArc& a) { return a.edge; });
+  if (!at_edge.empty()) {
+    const std::vector<RuledStrip> strips = strips_of(scene, index, skeleton, at_edge);
+    PagePicture picture = strips_picture(view, scene, skeleton, strips);
+    picture.file = "edge.png";
+    picture.title = "All events of one edge";
+    picture.caption = drawn_of(strips.size(), at_edge.size(), "line sets") +
+                      " The edge that most vertices see, with the parts that each sees.";
+    pictures.push_back(std::move(picture));
+  }
+  SceneView arcs = view;
+  const std::vector<int> drawn = evenly_spread(skeleton.arcs.size(), kDrawnArcs);
+  add_arcs(arcs.drawing, scene, skeleton, drawn,
+           static_cast<float>(std::clamp(20 / (drawn.size() + 1.0), 0.012, 0.25)));
+  pictures.push_back(
+      {"arcs.png", encode_png(render(arcs.drawing, arcs.camera)), "EV line sets",
+       drawn_of(drawn.size(), skeleton.arcs.size(),
+                "arcs, each the triangle between its vertex and its part of the edge")});
+  return pictures;
+}
+
+Json options_json(const AnalyseOptions& options) {
+  Json j{{"only", Json::array({"skeleton"})}};
+  j["precision"] = options.precision == Precision::Exact ? "exact" : "double";
+  if (std::isfinite(options.budget)) j["budget"] = options.budget;
+  if (!options.region.empty()) j["region"] = options.region;
+  return j;
+}
+
+void print_summary(const Json& report, const fs::path& folder) {
+  const Json& s = report["skeleton"];
+  std::cout << fmt::format(
+      "{}: {} EV arcs ({} within one object){}\n  nodes:",
+      report["scene"]["file"].get<std::string>(),
+      s["arcs"]["EV"].get<std::int64_t>() + s["arcs"]["EV_self"].get<std::int64_t>(),
+      s["arcs"]["EV_self"].get<std::int64_t>(),
+      report["complete"].get<bool>() ? "" : ", INCOMPLETE");
+  for (const auto& [kind, count] : s["nodes"].items()) {
+    if (count.is_number() && count != 0) {
+      std::cout << fmt::format(" {} {}", kind, count.get<std::int64_t>());
+    }
+  }
+  std::cout << fmt::format("\n  {:.2f} s, {:.0f} MiB\n  open {}\n",
+                           report["seconds"].get<double>(),
+                           report["peak_memory_bytes"].get<double>() / 1048576,
+                           (folder / "index.html").string());
+}
+
+Scene load(const AnalyseOptions& options, const fs::path& folder) {
+  if (!options.scene.empty()) return Scene(read_mesh(options.scene));
+  make_folder(folder);
+  const fs::path file = folder / kBuiltinSceneName;
+  write_whole(file, builtin_scene());
+  PolygonSoup soup = read_mesh(file.string());
+  soup.source = std::string(kBuiltinSceneName) + " (built in)";
+  return Scene(std::move(soup));
+}
+
+ExitStatus run(const AnalyseOptions& options) {
+  for (const std::string& name : options.only) {
+    if (name != "skeleton") {
+      throw UsageError(fmt::format(
+          "--only: '{}' is not available in this version; available: skeleton", name));
+    }
+  }
+  const Interruption interruption;
+  const Meter meter;
+  StageLog log;
+  const PrecisionScope precision(options.precision);
+  const fs::path folder(options.folder);
+
+  // 1. The scene and what is wrong with it.
+  SkeletonRequest request;
+  request.region = region_box(options.region);
+  const Scene scene = load(options, folder);
+  log.done("load the scene");
+  const std::vector<Defect> defects = validate(scene);
+  log.done("look for defects");
+
+  // 2. The skeleton, within what is left of the budget.
+  request.precision = options.precision;
+  request.threads = options.threads;
+  request.budget_seconds = options.budget - meter.seconds();
+  request.stop = interruption.token();
+  const StageCounts before = meter.predicates();
+  Skeleton skeleton;
+  {
+    Progress progress("EV skeleton");
+    request.progress = progress.callback();
+    skeleton = build_ev_skeleton(scene, request);
+  }
+  log.done("EV skeleton");
+  const std::size_t analysis_memory = peak_memory_bytes();
+
+  // 3. Files.
+  make_folder(folder);
+  const OcclusionIndex index(scene);
+  const std::vector<int> at_vertex =
+      busiest(skeleton, [](const SkeletonArc& a) { return a.vertex; });
+  const std::vector<RuledStrip> strips = strips_of(scene, index, skeleton, at_vertex);
+  std::vector<std::string> files;
+  const fs::path vtk = options.vtk.empty() ? folder / "vtk" : fs::path(options.vtk);
+  for (const std::string& name : write_vtk(vtk, scene, {&skeleton, &strips})) {
+    if (options.vtk.empty()) files.push_back("vtk/" + name);
+  }
+  log.done("VTK files");
+  std::vector<PagePicture> pictures =
+      draw_pictures(scene, index, skeleton, request.region);
+  for (const PagePicture& picture : pictures) {
+    write_whole(folder / picture.file, picture.png);
+    files.push_back(picture.file);
+  }
+  log.done("pictures");
+
+  // 4. The report.
+  Json report = answer_head("analyse", scene, skeleton.complete,
+                            {meter.seconds(), before + skeleton.predicates});
+  report["peak_memory_bytes"] = analysis_memory;
+  report["peak_memory_bytes_with_pictures"] = peak_memory_bytes();
+  report["options"] = options_json(options);
+  report["info"] = info_json(scene, defects);
+  report["skeleton"] = {{"events", "solid"},
+                        {"kinds", Json::array({"EV"})},
+                        {"nodes", node_counts(skeleton)},
+                        {"arcs", arc_counts(skeleton)},
+                        {"complete", skeleton.complete},
+                        {"vertices_done", skeleton.vertices_done},
+                        {"vertices_asked", skeleton.vertices_asked},
+                        {"predicates", stage_counts(skeleton.predicates)}};
+  report["stages"] = log.stages();
+  report["missing"] = Json::array();
+  if (!skeleton.complete) {
+    report["missing"].push_back(fmt::format(
+        "{}: the EV arcs of {} of {} vertices were not computed ({:.1f} %)",
+        interruption.token().stop_requested() ? "Interrupted" : "The budget ended first",
+        skeleton.vertices_asked - skeleton.vertices_done, skeleton.vertices_asked,
+        100.0 * static_cast<double>(skeleton.vertices_asked - skeleton.vertices_done) /
+            static_cast<double>(std::max<std::size_t>(1, skeleton.vertices_asked))));
+  }
+  files.insert(files.begin(), "report.json");
+  if (options.scene.empty()) files.emplace_back(kBuiltinSceneName);
+  report["files"] = files;
+  write_whole(folder / "report.json", report.dump(1) + "\n");
+  write_whole(folder / "index.html", report_page(report, pictures));
+  write_answer(options, report);
+  if (options.may_print()) print_summary(report, folder);
+  return skeleton.complete ? kAnswered : kPartial;
+}
+
+}  // namespace
+
+Command add_analyse_command(CLI::App& app) {
+  auto options = std::make_shared<AnalyseOptions>();
+  CLI::App* command = app.add_subcommand(
+      "analyse",
+      "the main job: all analyses of one scene into a folder with a page to open");
+  add_scene_argument(*command, *options, false);
+  command->get_option("SCENE")->description(
+      command->get_option("SCENE")->get_description() +
+      " (default: a built-in room, which is also written into DIR)");
+  command
+      ->add_option("-o,--output", options->folder,
+                   "folder for index.html, report.json, pictures and VTK files "
+                   "(default sightline-report)")
+      ->type_name("DIR");
+  command
+      ->add_option("--only", options->only,
+                   "only these analyses, separated by commas; known: skeleton "
+                   "(default: all that apply)")
+      ->type_name("NAME,...")
+      ->delimiter(',');
+  add_region_option(*command, options->region);
+  add_budget_option(*command, options->budget);
+  add_common_options(*command, *options);
+  return [options] { return run(*options); };
+}
+
+}  // namespace sightline::viewers

@@ -1,0 +1,233 @@
+#include "viewers/answer.h"
+
+#include <sys/resource.h>
+
+#include <set>
+
+#include "viewers/drawing.h"
+#include "viewers/version.h"
+
+namespace sightline::viewers {
+namespace {
+
+/// As many as the file has; STL repeats them for every facet, so there the distinct ones.
+std::size_t vertex_count(const Scene& scene) {
+  const std::string& file = scene.soup().source;
+  const bool stl = file.ends_with(".stl") || file.ends_with(".STL");
+  return stl ? scene.points().size() : scene.soup().vertices.size();
+}
+
+Json edge_kind(EdgeKind kind) {
+  switch (kind) {
+    case EdgeKind::Convex:
+      return "convex";
+    case EdgeKind::Reflex:
+      return "reflex";
+    case EdgeKind::Flat:
+      return "flat";
+    case EdgeKind::Boundary:
+      return "boundary";
+    case EdgeKind::NonManifold:
+      return "nonmanifold";
+  }
+  return nullptr;
+}
+
+Json vertex_json(const Scene& scene, int id) {
+  std::set<int> objects;
+  for (const int f : scene.faces_at(id)) objects.insert(scene.faces()[f].object);
+  Json names = Json::array();
+  for (const int o : objects) names.push_back(scene.objects()[o].name);
+  return {{"type", "vertex"},
+          {"id", id},
+          {"vertex", scene.vertex_of(id)},
+          {"at", point_json(scene.point(id))},
+          {"objects", std::move(names)}};
+}
+
+Json edge_json(const Scene& scene, int id) {
+  const Edge& edge = scene.edges()[id];
+  return {
+      {"type", "edge"},
+      {"id", id},
+      {"vertices", {scene.vertex_of(edge.points[0]), scene.vertex_of(edge.points[1])}},
+      {"from", point_json(scene.point(edge.points[0]))},
+      {"to", point_json(scene.point(edge.points[1]))},
+      {"edge", edge_kind(edge.kind)},
+      {"objects", Json::array({scene.objects()[edge.object].name})}};
+}
+
+Json facet_json(const Scene& scene, int id) {
+  const Facet& facet = scene.facets()[id];
+  Json polygons = Json::array();
+  for (const int f : facet.faces) {
+    const int polygon = scene.faces()[f].source;
+    if (polygons.empty() || polygons.back() != polygon) polygons.push_back(polygon);
+  }
+  return {{"type", "face"},
+          {"id", id},
+          {"faces", polygons},
+          {"objects", Json::array({scene.objects()[facet.object].name})}};
+}
+
+Json generator_json(const Scene& scene, const Generator& generator) {
+  switch (generator.kind) {
+    case GeneratorKind::Vertex:
+      return vertex_json(scene, generator.id);
+    case GeneratorKind::Edge:
+      return edge_json(scene, generator.id);
+    case GeneratorKind::Face:
+      return facet_json(scene, generator.id);
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::string version() { return SIGHTLINE_VERSION; }
+
+std::size_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts KiB
+}
+
+Json answer_head(const std::string& command, const Scene& scene, bool complete,
+                 const Cost& cost) {
+  return {{"command", command},
+          {"version", version()},
+          {"scene", scene_counts(scene)},
+          {"complete", complete},
+          {"seconds", cost.seconds},
+          {"peak_memory_bytes", peak_memory_bytes()},
+          {"predicates", stage_counts(cost.predicates)}};
+}
+
+Json scene_counts(const Scene& scene) {
+  const MeshEdgeCounts& e = scene.mesh_edges();
+  return {{"file", scene.soup().source},
+          {"vertices", vertex_count(scene)},
+          {"faces", scene.soup().polygons.size()},
+          {"edges", e.convex + e.reflex + e.flat + e.boundary + e.nonmanifold},
+          {"objects", scene.objects().size()},
+          {"facets", scene.facets().size()},
+          {"solids", scene.solids()}};
+}
+
+Json stage_counts(const StageCounts& counts) {
+  return {{"double", counts.by_double},
+          {"interval", counts.by_interval},
+          {"exact", counts.by_exact}};
+}
+
+Json point_json(const Point& p) { return {p.x(), p.y(), p.z()}; }
+
+Json points_json(const std::array<Point, 2>& points) {
+  return {point_json(points[0]), point_json(points[1])};
+}
+
+Json info_json(const Scene& scene, const std::vector<Defect>& defects) {
+  const MeshEdgeCounts& e = scene.mesh_edges();
+  Json info{{"vertices", vertex_count(scene)},
+            {"faces", scene.soup().polygons.size()},
+            {"edges",
+             {{"convex", e.convex},
+              {"reflex", e.reflex},
+              {"flat", e.flat},
+              {"boundary", e.boundary},
+              {"nonmanifold", e.nonmanifold}}},
+            {"solids", scene.solids()}};
+  Json groups = Json::array();
+  if (scene.soup().groups.empty()) {
+    for (const Object& object : scene.objects()) {
+      std::vector<int> polygons;
+      for (const int f : object.faces) {
+        const int source = scene.faces()[f].source;
+        if (polygons.empty() || polygons.back() != source) polygons.push_back(source);
+      }
+      groups.push_back({{"name", object.name}, {"faces", polygons.size()}});
+    }
+  } else {
+    for (const PolygonSoup::Group& group : scene.soup().groups) {
+      groups.push_back({{"name", group.name}, {"faces", group.faces.size()}});
+    }
+  }
+  info["groups"] = std::move(groups);
+  info["bounds"] = points_json(scene.bounds());
+  Json list = Json::array();
+  for (const Defect& defect : defects) {
+    Json j{{"kind", defect.kind}};
+    if (!defect.faces.empty()) j["faces"] = defect.faces;
+    if (!defect.vertices.empty()) j["vertices"] = defect.vertices;
+    j["message"] = defect.message;
+    list.push_back(std::move(j));
+  }
+  info["defects"] = std::move(list);
+  info["objects"] = scene.objects().size();
+  int convex = 0, closed = 0;
+  for (const Object& object : scene.objects()) {
+    closed += object.closed ? 1 : 0;
+    convex += object.convex ? 1 : 0;
+  }
+  info["closed_objects"] = closed;
+  info["convex_objects"] = convex;
+  info["facets"] = scene.facets().size();
+  info["maximal_edges"] = scene.edges().size();
+  info["corners"] = scene.corners().size();
+  return info;
+}
+
+Json node_counts(const Skeleton& skeleton) {
+  Json counts{{"VV", 0},       {"VEE", 0},      {"EVE", 0},
+              {"FvE", 0},      {"VV_self", 0},  {"VEE_self", 0},
+              {"EVE_self", 0}, {"FvE_self", 0}, {"degenerate", 0}};
+  Json end{{"VV", 0}, {"VEE", 0}, {"EVE", 0}, {"FvE", 0}};
+  for (const SkeletonNode& node : skeleton.nodes) {
+    Json& count = (node.end ? end : counts)[kind_name(node)];
+    count = count.is_null() ? 1 : count.get<std::int64_t>() + 1;
+  }
+  counts["end"] = std::move(end);
+  return counts;
+}
+
+Json arc_counts(const Skeleton& skeleton) {
+  std::int64_t self = 0;
+  for (const SkeletonArc& arc : skeleton.arcs) self += arc.self ? 1 : 0;
+  return {{"EV", static_cast<std::int64_t>(skeleton.arcs.size()) - self},
+          {"EV_self", self}};
+}
+
+Json node_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
+  const SkeletonNode& node = skeleton.nodes[id];
+  Json j{{"id", id}, {"kind", kind_name(node)}};
+  if (node.end) j["end"] = true;
+  Json generators = Json::array();
+  for (const Generator& g : skeleton.generators(node)) {
+    generators.push_back(generator_json(scene, g));
+  }
+  j["generators"] = std::move(generators);
+  j["line"] = points_json(node.segment);
+  return j;
+}
+
+Json arc_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
+  const SkeletonArc& arc = skeleton.arcs[id];
+  return {{"id", id},
+          {"kind", kind_name(arc)},
+          {"vertex", vertex_json(scene, arc.vertex)},
+          {"edge", edge_json(scene, arc.edge)},
+          {"range", {arc.range[0], arc.range[1]}},
+          {"nodes", {arc.nodes[0], arc.nodes[1]}}};
+}
+
+StageCounts operator+(const StageCounts& a, const StageCounts& b) {
+  return {a.by_double + b.by_double, a.by_interval + b.by_interval,
+          a.by_exact + b.by_exact};
+}
+
+StageCounts operator-(const StageCounts& a, const StageCounts& b) {
+  return {a.by_double - b.by_double, a.by_interval - b.by_interval,
+          a.by_exact - b.by_exact};
+}
+
+}  // namespace sightline::viewers

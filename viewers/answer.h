@@ -1,0 +1,58 @@
+// The JSON answers: the keys that all of them have, counts, and lists.
+
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "linespace/predicates.h"
+#include "linespace/scene.h"
+#include "skeleton/ev_skeleton.h"
+
+namespace sightline::viewers {
+
+/// Keys in the order they were added.
+using Json = nlohmann::ordered_json;
+
+/// The program's version, "0.1.0".
+[[nodiscard]] std::string version();
+
+/// The largest resident memory of this process so far, bytes.
+[[nodiscard]] std::size_t peak_memory_bytes();
+
+/// What an answer cost.
+struct Cost {
+  double seconds = 0;
+  StageCounts predicates;
+};
+
+/// "command", "version", "scene", "complete", "seconds", "peak_memory_bytes",
+/// "predicates".
+[[nodiscard]] Json answer_head(const std::string& command, const Scene& scene,
+                               bool complete, const Cost& cost);
+
+/// {"file", "vertices", "faces", "edges", "objects", "facets", "solids"}, all counts.
+[[nodiscard]] Json scene_counts(const Scene& scene);
+/// {"double", "interval", "exact"}.
+[[nodiscard]] Json stage_counts(const StageCounts& counts);
+[[nodiscard]] Json point_json(const Point& p);
+[[nodiscard]] Json points_json(const std::array<Point, 2>& points);
+
+/// What `sightline info` says about a scene, common keys left out.
+[[nodiscard]] Json info_json(const Scene& scene, const std::vector<Defect>& defects);
+
+/// Nodes and arcs by kind.
+[[nodiscard]] Json node_counts(const Skeleton& skeleton);
+[[nodiscard]] Json arc_counts(const Skeleton& skeleton);
+
+/// One node, one arc, with generators and coordinates; without contacts and free segment.
+[[nodiscard]] Json node_json(const Scene& scene, const Skeleton& skeleton,
+                             std::size_t node);
+[[nodiscard]] Json arc_json(const Scene& scene, const Skeleton& skeleton,
+                            std::size_t arc);
+
+StageCounts operator+(const StageCounts& a, const StageCounts& b);
+StageCounts operator-(const StageCounts& a, const StageCounts& b);
+
+}  // namespace sightline::viewers

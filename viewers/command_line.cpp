@@ -1,0 +1,143 @@
+#include "viewers/command_line.h"
+
+#include <fmt/format.h>
+#include <pthread.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <iostream>
+
+#include "viewers/output_file.h"
+
+namespace sightline::viewers {
+
+void add_scene_argument(CLI::App& app, CommonOptions& options, bool required) {
+  CLI::Option* scene =
+      app.add_option("SCENE", options.scene,
+                     "mesh file, by extension: .obj .ply .stl .off .glb .gltf; "
+                     ".ifc .ac and others where assimp reads them");
+  scene->required(required);
+}
+
+void add_common_options(CLI::App& app, CommonOptions& options) {
+  app.add_option("--json", options.json,
+                 "write the answer as JSON to FILE; '-' is standard output, and then "
+                 "nothing else goes there")
+      ->type_name("FILE");
+  app.add_option(
+         "--vtk", options.vtk,
+         "write VTK files into the folder DIR; open DIR/sightline.vtm in ParaView")
+      ->type_name("DIR");
+  app.add_option(
+         "--threads", options.threads,
+         "number of threads; 0 means one per core (default 0); the answer does not "
+         "depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 4096));
+  app.add_option_function<std::string>(
+         "--precision",
+         [&options](const std::string& name) {
+           options.precision = name == "double" ? Precision::Double : Precision::Exact;
+         },
+         "exact: every sign is that of exact arithmetic; double: skips the exact stages, "
+         "to measure what they cost and save (default exact)")
+      ->type_name("exact|double")
+      ->check(CLI::IsMember({"exact", "double"}));
+}
+
+void add_budget_option(CLI::App& app, double& seconds) {
+  app.add_option("--budget", seconds,
+                 "seconds after which a partial answer is given, with exit status 3 "
+                 "(default: no limit)")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_region_option(CLI::App& app, std::vector<double>& region) {
+  app.add_option(
+         "--region", region,
+         "only vertices and edges inside this box: x0,y0,z0,x1,y1,z1 in scene units "
+         "(default: everywhere)")
+      ->type_name("BOX")
+      ->delimiter(',')
+      ->expected(6);
+}
+
+std::optional<std::array<Point, 2>> region_box(const std::vector<double>& region) {
+  if (region.empty()) return std::nullopt;
+  const Point low(region[0], region[1], region[2]), high(region[3], region[4], region[5]);
+  if (!low.allFinite() || !high.allFinite() || (low.array() > high.array()).any()) {
+    throw UsageError("--region: the first corner must not exceed the second");
+  }
+  return std::array<Point, 2>{low, high};
+}
+
+void write_answer(const CommonOptions& options, const Json& answer) {
+  if (options.json.empty()) return;
+  const std::string text = answer.dump(1) + "\n";
+  if (options.json == "-") {
+    std::cout << text << std::flush;
+  } else {
+    write_whole(options.json, text);
+  }
+}
+
+struct Progress::State {
+  std::string what;
+  std::chrono::steady_clock::time_point last{};
+  bool shown = false;
+};
+
+Progress::Progress(std::string what) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  state_ = std::make_shared<State>();
+  state_->what = std::move(what);
+}
+
+Progress::~Progress() {
+  if (state_ && state_->shown) std::fputs("\r\033[K", stderr);
+}
+
+std::function<void(double)> Progress::callback() {
+  if (!state_) return {};
+  return [state = state_](double fraction) {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - state->last < std::chrono::milliseconds(100)) return;
+    state->last = now;
+    state->shown = true;
+    std::fputs(fmt::format("\r{} {:3.0f} %", state->what, 100 * fraction).c_str(),
+               stderr);
+    std::fflush(stderr);
+  };
+}
+
+Interruption::Interruption() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  // Blocked here, so that threads made later leave them to the watcher.
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  watcher_ = std::jthread([signals, source = stop_](const std::stop_token& done) mutable {
+    const timespec patience{0, 50'000'000};
+    while (!done.stop_requested()) {
+      if (sigtimedwait(&signals, nullptr, &patience) < 0) continue;
+      if (!source.request_stop()) std::_Exit(kOurFailure);
+    }
+  });
+}
+
+Interruption::~Interruption() = default;
+
+Meter::Meter()
+    : start_(std::chrono::steady_clock::now()), counts_(thread_stage_counts()) {}
+
+double Meter::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+StageCounts Meter::predicates() const { return thread_stage_counts() - counts_; }
+
+}  // namespace sightline::viewers

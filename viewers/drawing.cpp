@@ -1,0 +1,325 @@
+#include "viewers/drawing.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+#include "viewers/palette.h"
+
+namespace sightline::viewers {
+namespace {
+
+constexpr Colour kInk{0.17F, 0.18F, 0.22F};
+
+Point normal_of(const Scene& scene, int face) {
+  const std::span<const int> ids = scene.face_points(face);
+  const Point& a = scene.point(ids[0]);
+  return (scene.point(ids[1]) - a).cross(scene.point(ids[2]) - a).normalized();
+}
+
+double area_of(const Scene& scene, int face) {
+  const std::span<const int> ids = scene.face_points(face);
+  Point twice = Point::Zero();
+  for (std::size_t i = 2; i < ids.size(); ++i) {
+    const Point& a = scene.point(ids[0]);
+    twice += (scene.point(ids[i - 1]) - a).cross(scene.point(ids[i]) - a);
+  }
+  return 0.5 * twice.norm();
+}
+
+/// The faces left when the walls between the eye and the scene are taken away.
+std::vector<char> faces_shown(const Scene& scene, const Point& towards_eye) {
+  const auto [low, high] = scene.bounds();
+  const Point extent = high - low;
+  std::vector<char> shown(scene.faces().size(), 1);
+  for (int axis = 0; axis < 3; ++axis) {
+    if (std::abs(towards_eye[axis]) < 0.15 || extent[axis] <= 0) continue;
+    const double sign = towards_eye[axis] > 0 ? 1 : -1;
+    const double wall = sign > 0 ? high[axis] : low[axis];
+    const double thickness = 0.12 * extent[axis];
+    const auto is_near = [&](int f) {
+      return std::ranges::all_of(scene.face_points(f), [&](int p) {
+        return sign * (wall - scene.point(p)[axis]) <= thickness;
+      });
+    };
+    std::vector<char> near(scene.faces().size());
+    double facing_out = 0, facing_in = 0;
+    for (std::size_t f = 0; f < near.size(); ++f) {
+      const int face = static_cast<int>(f);
+      if (!(near[f] = is_near(face))) continue;
+      const double lean = sign * normal_of(scene, face)[axis];
+      if (lean > 0.9) facing_out += area_of(scene, face);
+      if (lean < -0.9) facing_in += area_of(scene, face);
+    }
+    const double side = extent.prod() / extent[axis];
+    if (std::max(facing_out, facing_in) < 0.5 * side) continue;
+    for (const Object& object : scene.objects()) {
+      if (object.closed &&
+          !std::ranges::all_of(object.faces, [&](int f) { return near[f]; })) {
+        continue;
+      }
+      for (const int f : object.faces) {
+        if (near[f]) shown[f] = 0;
+      }
+    }
+  }
+  return shown;
+}
+
+Drawing draw_faces(const Scene& scene, const std::vector<char>& shown) {
+  Drawing drawing;
+  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    if (!shown[f]) continue;
+    const Face& face = scene.faces()[f];
+    const std::span<const int> ids = scene.face_points(static_cast<int>(f));
+    const bool closed = scene.objects()[face.object].closed;
+    for (std::size_t i = 2; i < ids.size(); ++i) {
+      drawing.triangles.push_back(
+          {{scene.point(ids[0]), scene.point(ids[i - 1]), scene.point(ids[i])},
+           colour_of_object(face.object),
+           closed,
+           face.facet});
+    }
+  }
+  return drawing;
+}
+
+void add_edges(Drawing& drawing, const Scene& scene, const std::vector<char>& shown,
+               const Point& eye) {
+  // Fine meshes would be black with edges: fewer pixels and less ink for more edges.
+  const double crowd = static_cast<double>(scene.edges().size());
+  const float opacity = static_cast<float>(std::clamp(900 / crowd, 0.07, 0.8));
+  const float width = crowd > 3000 ? 0.8F : 1.4F;
+  for (const Edge& edge : scene.edges()) {
+    const bool seen = std::ranges::any_of(edge.sides, [&](const Edge::Side& side) {
+      if (!shown[side.face]) return false;
+      const Face& face = scene.faces()[side.face];
+      const Point& p = scene.point(scene.face_points(side.face)[0]);
+      return !scene.objects()[face.object].closed ||
+             normal_of(scene, side.face).dot(eye - p) > 0;
+    });
+    if (!seen) continue;
+    drawing.strokes.push_back({{scene.point(edge.points[0]), scene.point(edge.points[1])},
+                               kInk,
+                               width,
+                               opacity});
+  }
+}
+
+/// The camera that looks along -towards_eye and just holds the scene's bounding box.
+Camera frame(const Scene& scene, const Point& towards_eye, const Point& up,
+             double aspect) {
+  const auto [low, high] = scene.bounds();
+  Camera camera;
+  camera.target = 0.5 * (low + high);
+  camera.up = up;
+  const double slope_y = std::tan(0.5 * camera.field_of_view) * 0.94;
+  const double slope_x = slope_y * aspect;
+  const Point right = up.cross(towards_eye).normalized();
+  const Point top = towards_eye.cross(right).normalized();
+  double distance = 1e-3 * (high - low).norm();
+  // Two rounds: the first finds the distance, the second after centring the picture.
+  for (int round = 0; round < 4; ++round) {
+    distance = 0;
+    std::array<double, 4> reach{-1e300, 1e300, -1e300, 1e300};
+    for (int i = 0; i < 8; ++i) {
+      const Point corner(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
+                         i & 4 ? high.z() : low.z());
+      const Point d = corner - camera.target;
+      const double depth = d.dot(towards_eye);
+      distance = std::max({distance, depth + std::abs(d.dot(right)) / slope_x,
+                           depth + std::abs(d.dot(top)) / slope_y});
+    }
+    for (int i = 0; i < 8; ++i) {
+      const Point corner(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
+                         i & 4 ? high.z() : low.z());
+      const Point d = corner - camera.target;
+      const double z = distance - d.dot(towards_eye);
+      reach[0] = std::max(reach[0], d.dot(right) / z);
+      reach[1] = std::min(reach[1], d.dot(right) / z);
+      reach[2] = std::max(reach[2], d.dot(top) / z);
+      reach[3] = std::min(reach[3], d.dot(top) / z);
+    }
+    camera.target += 0.5 * distance *
+                     ((reach[0] + reach[1]) * right + (reach[2] + reach[3]) * top) * 0.9;
+  }
+  camera.eye = camera.target + distance * towards_eye;
+  return camera;
+}
+
+double entropy(const std::vector<int>& ids) {
+  std::map<int, int> pixels;
+  for (const int id : ids) ++pixels[id];
+  double sum = 0;
+  for (const auto& [id, count] : pixels) {
+    if (id < 0) continue;
+    const double p = static_cast<double>(count) / static_cast<double>(ids.size());
+    sum -= p * std::log(p);
+  }
+  return sum;
+}
+
+}  // namespace
+
+int guess_up_axis(const Scene& scene) {
+  const Point extent = scene.bounds()[1] - scene.bounds()[0];
+  int thinnest = 0;
+  extent.minCoeff(&thinnest);
+  double others = std::numeric_limits<double>::infinity();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (axis != thinnest) others = std::min(others, extent[axis]);
+  }
+  if (extent[thinnest] < 0.7 * others) return thinnest;
+  const std::string& name = scene.soup().source;
+  const auto ends = [&](std::string_view suffix) { return name.ends_with(suffix); };
+  return ends(".obj") || ends(".OBJ") || ends(".gltf") || ends(".glb") ? 1 : 2;
+}
+
+SceneView view_scene(const Scene& scene, const ViewOptions& options) {
+  const int axis = options.up_axis >= 0 ? options.up_axis : guess_up_axis(scene);
+  Point up = Point::Zero(), ahead = Point::Zero();
+  up[axis] = 1;
+  ahead[(axis + 1) % 3] = 1;
+  const Point aside = up.cross(ahead);
+  const double aspect = static_cast<double>(options.width) / options.height;
+
+  const bool large = scene.faces().size() > 20000;
+  const int turns = large ? 6 : 12;
+  Point best = Point::Zero();
+  double best_score = -1;
+  for (const double elevation : {0.42, 0.62}) {
+    for (int turn = 0; turn < turns; ++turn) {
+      // Off the axes and diagonals, where aligned scenes look flat.
+      const double azimuth = 0.31 + 2 * M_PI * turn / turns;
+      const Point direction =
+          std::sin(elevation) * up +
+          std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside);
+      const Drawing faces = draw_faces(scene, faces_shown(scene, direction));
+      const Camera camera = frame(scene, direction, up, aspect);
+      const double score = entropy(visible_ids(faces, camera, 168, 118));
+      if (score > best_score * (1 + 1e-9)) {
+        best_score = score;
+        best = direction;
+      }
+    }
+  }
+
+  SceneView view;
+  const std::vector<char> shown = faces_shown(scene, best);
+  view.camera = frame(scene, best, up, aspect);
+  view.drawing = draw_faces(scene, shown);
+  add_edges(view.drawing, scene, shown, view.camera.eye);
+  return view;
+}
+
+void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
+              std::span<const int> arcs, float opacity) {
+  for (const int i : arcs) {
+    const SkeletonArc& arc = skeleton.arcs[i];
+    const Edge& edge = scene.edges()[arc.edge];
+    const Colour colour = colour_of_kind(kind_name(arc));
+    const Point& v = scene.point(arc.vertex);
+    const Point a = point_on_edge(scene, edge, arc.range[0]);
+    const Point b = point_on_edge(scene, edge, arc.range[1]);
+    drawing.veils.push_back({{v, a, b}, colour, opacity});
+    drawing.strokes.push_back({{a, b}, colour, 1.6F, std::min(1.0F, 4 * opacity)});
+  }
+}
+
+RuledStrip ruled_strip(const Scene& scene, const OcclusionIndex& index,
+                       const Skeleton& skeleton, int arc, int count) {
+  RuledStrip strip{arc, {}};
+  const SkeletonArc& a = skeleton.arcs[arc];
+  for (int i = 0; i < count; ++i) {
+    // The ends of the open interval are not part of the arc: stay a little inside.
+    const double t = (i + 1e-3) / (count - 1 + 2e-3);
+    const double s = a.range[0] + t * (a.range[1] - a.range[0]);
+    if (std::optional<FarEnds> ends = far_ends(scene, index, a, s)) {
+      strip.rungs.push_back(std::move(*ends));
+    }
+  }
+  return strip;
+}
+
+void add_strip(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
+               const RuledStrip& strip, float opacity) {
+  const SkeletonArc& arc = skeleton.arcs[strip.arc];
+  const Colour colour = colour_of_kind(kind_name(arc));
+  const Point& v = scene.point(arc.vertex);
+  for (std::size_t i = 1; i < strip.rungs.size(); ++i) {
+    const FarEnds& a = strip.rungs[i - 1];
+    const FarEnds& b = strip.rungs[i];
+    for (int end = 0; end < 2; ++end) {
+      if (a.faces[end] != b.faces[end]) continue;
+      // Both halves are fans from the vertex, through which all lines of the arc pass.
+      drawing.veils.push_back({{v, a.points[end], b.points[end]}, colour, opacity});
+      if (!a.faces[end].empty()) {
+        drawing.strokes.push_back(
+            {{a.points[end], b.points[end]}, colour, 2.2F, std::min(1.0F, 9 * opacity)});
+      }
+    }
+  }
+}
+
+void add_nodes(Drawing& drawing, const Skeleton& skeleton, std::span<const int> nodes,
+               float opacity, float width) {
+  for (const int i : nodes) {
+    const SkeletonNode& node = skeleton.nodes[i];
+    drawing.strokes.push_back(
+        {node.segment, colour_of_kind(kind_name(node)), width, opacity, 0.12F * opacity});
+  }
+}
+
+void add_box(Drawing& drawing, const std::array<Point, 2>& box, const Colour& colour) {
+  const auto corner = [&](int i) {
+    return Point(box[i & 1].x(), box[(i >> 1) & 1].y(), box[(i >> 2) & 1].z());
+  };
+  for (int i = 0; i < 8; ++i) {
+    for (int bit = 1; bit < 8; bit <<= 1) {
+      if (i & bit) continue;
+      drawing.strokes.push_back({{corner(i), corner(i | bit)}, colour, 2, 0.9F, 0.35F});
+    }
+  }
+}
+
+std::string kind_name(const SkeletonArc& arc) { return arc.self ? "EV_self" : "EV"; }
+
+std::string kind_name(const SkeletonNode& node) {
+  std::string name;
+  switch (node.kind) {
+    case NodeKind::VV:
+      name = "VV";
+      break;
+    case NodeKind::VEE:
+      name = "VEE";
+      break;
+    case NodeKind::EVE:
+      name = "EVE";
+      break;
+    case NodeKind::FvE:
+      name = "FvE";
+      break;
+    case NodeKind::Saddle:
+      name = "saddle";
+      break;
+    case NodeKind::Pierce:
+      name = "pierce";
+      break;
+    case NodeKind::Degenerate:
+      return "degenerate";
+  }
+  return node.self ? name + "_self" : name;
+}
+
+std::vector<int> evenly_spread(std::size_t size, std::size_t limit) {
+  std::vector<int> chosen;
+  const std::size_t count = std::min(size, limit);
+  for (std::size_t i = 0; i < count; ++i) {
+    chosen.push_back(static_cast<int>(i * size / count));
+  }
+  return chosen;
+}
+
+}  // namespace sightline::viewers

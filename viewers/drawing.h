@@ -1,0 +1,68 @@
+// Scenes and skeletons as drawings: what is shown, in which colours, and from where.
+
+#pragma once
+
+#include <optional>
+
+#include "skeleton/ev_skeleton.h"
+#include "viewers/far_ends.h"
+#include "viewers/picture.h"
+
+namespace sightline::viewers {
+
+/// The axis (0, 1, 2) that points up: the thinnest one of a flat scene, otherwise y for
+/// OBJ and glTF files and z for others.
+[[nodiscard]] int guess_up_axis(const Scene& scene);
+
+struct ViewOptions {
+  int up_axis = -1;  ///< 0, 1, 2; -1 to guess
+  int width = 1400, height = 980;
+};
+
+/// A scene ready to be drawn on.
+struct SceneView {
+  Camera camera;
+  Drawing drawing;
+};
+
+/// Every face with its edges, from the direction in which most is seen (the largest
+/// entropy of visible facets over a fixed set of directions, after Vazquez et al. 2001).
+/// Walls that would shut the viewer out are left away: a side of the bounding box that
+/// thin things close by more than half.
+[[nodiscard]] SceneView view_scene(const Scene& scene, const ViewOptions& options = {});
+
+/// The triangle between vertex and edge part of each arc listed; `opacity` of one.
+void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
+              std::span<const int> arcs, float opacity);
+
+/// An arc's lines from far end to far end: `rungs` are those lines in order along the
+/// edge.  Neighbouring rungs that end on different faces are not joined.
+struct RuledStrip {
+  int arc;
+  std::vector<FarEnds> rungs;
+};
+
+/// Sampled at `count` parameters of the arc, at least 2.
+[[nodiscard]] RuledStrip ruled_strip(const Scene& scene, const OcclusionIndex& index,
+                                     const Skeleton& skeleton, int arc, int count);
+
+/// The strip as veils, and where it meets the scene as strokes: the curves at which
+/// a change of view could be noticed.
+void add_strip(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
+               const RuledStrip& strip, float opacity);
+
+/// The segments between the outermost contacts of the nodes listed.
+void add_nodes(Drawing& drawing, const Skeleton& skeleton, std::span<const int> nodes,
+               float opacity, float width);
+
+/// A box's twelve edges, to show a region of interest.
+void add_box(Drawing& drawing, const std::array<Point, 2>& box, const Colour& colour);
+
+/// "EV", "EV_self"; "VV", "VEE", "FvE_self", ...: the names of CONTRACT.md.
+[[nodiscard]] std::string kind_name(const SkeletonArc& arc);
+[[nodiscard]] std::string kind_name(const SkeletonNode& node);
+
+/// At most `limit` of the numbers 0 to size-1, evenly spread, always the same.
+[[nodiscard]] std::vector<int> evenly_spread(std::size_t size, std::size_t limit);
+
+}  // namespace sightline::viewers

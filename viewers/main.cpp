@@ -1,0 +1,65 @@
+// The program `sightline`: one subcommand per question.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <iostream>
+#include <utility>
+#include <vector>
+
+#include "viewers/command_line.h"
+#include "viewers/output_file.h"
+
+namespace {
+
+using sightline::viewers::Command;
+using sightline::viewers::ExitStatus;
+
+/// One line on standard error, whatever the message holds.
+ExitStatus complain(ExitStatus status, std::string message) {
+  for (char& c : message) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  std::fputs(fmt::format("sightline: {}\n", message).c_str(), stderr);
+  return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  using namespace sightline::viewers;  // NOLINT(google-build-using-namespace)
+  CLI::App app{
+      "Exact 3D visibility: which lines touch what, and what that changes.\n"
+      "Start with `sightline analyse`, which needs no file, or `sightline info FILE`.",
+      "sightline"};
+  app.set_version_flag("--version", version());
+  app.require_subcommand(1);
+  app.footer(
+      "Exit status: 0 answered; 2 bad usage or bad input, nothing written;\n"
+      "3 budget ended or interrupted, partial answer written; 1 our own failure.");
+  std::vector<std::pair<std::string, Command>> commands;
+  commands.emplace_back("analyse", add_analyse_command(app));
+  commands.emplace_back("info", add_info_command(app));
+  commands.emplace_back("skeleton", add_skeleton_command(app));
+  commands.emplace_back("view", add_view_command(app));
+  try {
+    app.parse(argc, argv);
+    for (const auto& [name, run] : commands) {
+      if (app.got_subcommand(name)) return run();
+    }
+    return kOurFailure;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
+    return complain(kBadInput, fmt::format("{} (see --help)", error.what()));
+  } catch (const UsageError& error) {
+    return complain(kBadInput, error.what());
+  } catch (const OutputError& error) {
+    return complain(kBadInput, error.what());
+  } catch (const sightline::InvalidInput& error) {
+    return complain(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain(kOurFailure, "out of memory");
+  } catch (const std::exception& error) {
+    return complain(kOurFailure, fmt::format("internal error: {}", error.what()));
+  }
+}

@@ -1,0 +1,343 @@
+#include "viewers/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "viewers/palette.h"
+
+namespace sightline::viewers {
+namespace {
+
+constexpr const char* kStyle = R"css(
+:root { --ink:#20242c; --soft:#626b7a; --line:#dfe3ea; --card:#fff; --back:#f3f5f8; }
+* { box-sizing:border-box; }
+body { margin:0; background:var(--back); color:var(--ink);
+  font:15px/1.5 system-ui,"Segoe UI","DejaVu Sans",sans-serif; }
+main { max-width:1120px; margin:0 auto; padding:28px 20px 60px; }
+h1 { font-size:26px; margin:0; } h2 { font-size:18px; margin:34px 0 10px; }
+p { margin:6px 0; } .soft { color:var(--soft); }
+.cards { display:grid; grid-template-columns:repeat(auto-fit,minmax(150px,1fr)); gap:12px;
+  margin:20px 0 6px; }
+.card { background:var(--card); border:1px solid var(--line); border-radius:10px;
+  padding:12px 16px; }
+.card b { display:block; font-size:24px; font-variant-numeric:tabular-nums; }
+figure { margin:14px 0; background:var(--card); border:1px solid var(--line);
+  border-radius:10px; overflow:hidden; }
+figure img { display:block; width:100%; height:auto; }
+figcaption { padding:10px 16px 12px; border-top:1px solid var(--line); }
+.pair { display:grid; grid-template-columns:repeat(auto-fit,minmax(440px,1fr)); gap:14px; }
+.pair figure { margin:0; }
+table { border-collapse:collapse; width:100%; background:var(--card);
+  border:1px solid var(--line); border-radius:10px; overflow:hidden; }
+th,td { text-align:left; padding:6px 14px; border-top:1px solid var(--line);
+  vertical-align:top; }
+tr:first-child th { border-top:0; } th { font-weight:600; background:#f9fafc; }
+td.n, th.n { text-align:right; font-variant-numeric:tabular-nums; white-space:nowrap; }
+td.bar { width:42%; } .bar i { display:block; height:12px; border-radius:3px;
+  min-width:2px; margin-top:5px; }
+.chip { display:inline-block; width:11px; height:11px; border-radius:3px; margin:0 7px 0 0; }
+.legend span { margin-right:16px; white-space:nowrap; }
+.note { background:#fff6e3; border:1px solid #ecd8a5; border-radius:10px;
+  padding:10px 16px; margin:14px 0; }
+.fine { background:#ecf7ef; border-color:#bfe0c9; }
+code { font-size:13px; background:#e9edf3; padding:1px 5px; border-radius:4px; }
+.two { display:grid; grid-template-columns:repeat(auto-fit,minmax(420px,1fr)); gap:18px; }
+)css";
+
+/// 12345678 -> "12 345 678", with thin spaces.
+std::string grouped(std::int64_t n) {
+  std::string digits = std::to_string(n < 0 ? -n : n), out;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) out += "&#8239;";
+    out += digits[i];
+  }
+  return n < 0 ? "-" + out : out;
+}
+
+std::string seconds_text(double s) {
+  if (s < 0.0995) return fmt::format("{:.1f} ms", 1e3 * s);
+  return s < 9.95 ? fmt::format("{:.2f} s", s) : fmt::format("{:.1f} s", s);
+}
+
+std::string memory_text(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
+                     : fmt::format("{:.2f} GB", bytes / 1e9);
+}
+
+std::string card(const std::string& number, const std::string& what) {
+  return fmt::format("<div class=card><b>{}</b>{}</div>\n", number, what);
+}
+
+std::string bar(double fraction, const std::string& colour) {
+  return fmt::format("<td class=bar><i style=\"width:{:.1f}%;background:{}\"></i></td>",
+                     100 * fraction, colour);
+}
+
+const char* meaning(const std::string& kind) {
+  static const std::map<std::string, const char*> kMeanings{
+      {"EV", "lines through a vertex of one object and an edge of another"},
+      {"EV_self", "vertex and edge of one object that is not convex"},
+      {"VV", "two vertices"},
+      {"VEE", "a vertex, then two edges"},
+      {"EVE", "an edge, a vertex, an edge"},
+      {"FvE", "along a face through its vertex to an edge: support begins or ends"},
+      {"saddle", "a corner that is not convex, along two of its edges"},
+      {"pierce", "where an edge enters a face of an overlapping solid"},
+      {"degenerate", "more contacts than four degrees of freedom need"}};
+  const auto found = kMeanings.find(kind);
+  if (found != kMeanings.end()) return found->second;
+  return kind.ends_with("_self") ? "the same with two contacts on one object" : "";
+}
+
+std::string kind_rows(const Json& counts, const std::string& prefix, bool skip_empty) {
+  std::int64_t most = 1;
+  for (const auto& [kind, count] : counts.items()) {
+    if (count.is_number()) most = std::max(most, count.get<std::int64_t>());
+  }
+  std::string rows;
+  for (const auto& [kind, count] : counts.items()) {
+    if (!count.is_number()) continue;
+    const auto n = count.get<std::int64_t>();
+    if (skip_empty && n == 0) continue;
+    const std::string colour = hex(colour_of_kind(kind));
+    rows += fmt::format(
+        "<tr><td><i class=chip style=\"background:{}\"></i>{}{}</td><td "
+        "class=soft>{}</td>"
+        "<td class=n>{}</td>{}</tr>\n",
+        colour, prefix, html_escaped(kind), meaning(kind), grouped(n),
+        bar(static_cast<double>(n) / static_cast<double>(most), colour));
+  }
+  return rows;
+}
+
+std::string counts_section(const Json& skeleton) {
+  std::string html =
+      "<h2>Events by kind</h2>\n<table><tr><th>kind</th><th>what holds the line</th>"
+      "<th class=n>count</th><th></th></tr>\n";
+  html += kind_rows(skeleton["arcs"], "arc ", false);
+  const Json& nodes = skeleton["nodes"];
+  html += kind_rows(nodes, "node ", true);
+  if (nodes.contains("end")) html += kind_rows(nodes["end"], "end of line, ", true);
+  return html + "</table>\n";
+}
+
+std::string stages_section(const Json& report) {
+  std::string html =
+      "<h2>Where the time went</h2>\n<table><tr><th>stage</th><th class=n>seconds</th>"
+      "<th class=n>peak memory so far</th><th></th></tr>\n";
+  double most = 1e-9;
+  for (const Json& stage : report["stages"]) {
+    most = std::max(most, stage["seconds"].get<double>());
+  }
+  for (const Json& stage : report["stages"]) {
+    const double s = stage["seconds"].get<double>();
+    html += fmt::format("<tr><td>{}</td><td class=n>{}</td><td class=n>{}</td>{}</tr>\n",
+                        html_escaped(stage["name"].get<std::string>()), seconds_text(s),
+                        memory_text(stage["peak_memory_bytes"].get<double>()),
+                        bar(s / most, "#7d8aa0"));
+  }
+  return html + "</table>\n";
+}
+
+std::string predicates_section(const Json& report) {
+  const Json& counts = report["predicates"];
+  double total = 0;
+  for (const auto& [stage, count] : counts.items()) total += count.get<double>();
+  static const std::map<std::string, std::string> kWhat{
+      {"double", "floating point with a proved bound"},
+      {"interval", "interval arithmetic"},
+      {"exact", "exact numbers"}};
+  std::string html =
+      "<h2>How signs were decided</h2>\n<table><tr><th>stage</th><th></th><th class=n>"
+      "decisions</th><th class=n>share</th></tr>\n";
+  for (const auto& [stage, count] : counts.items()) {
+    html += fmt::format(
+        "<tr><td>{}</td><td class=soft>{}</td><td class=n>{}</td><td class=n>{:.4g} "
+        "%</td>"
+        "</tr>\n",
+        stage, kWhat.at(stage), grouped(count.get<std::int64_t>()),
+        total > 0 ? 100 * count.get<double>() / total : 0);
+  }
+  return html + "</table>\n";
+}
+
+std::string scene_section(const Json& report) {
+  const Json& info = report["info"];
+  const Json& edges = info["edges"];
+  const auto row = [](const std::string& name, const std::string& value) {
+    return fmt::format("<tr><td>{}</td><td class=n>{}</td></tr>\n", name, value);
+  };
+  const auto number = [](const Json& j) { return grouped(j.get<std::int64_t>()); };
+  std::string html = "<h2>The scene</h2>\n<div class=two><table>\n";
+  html += "<tr><th>" + html_escaped(report["scene"]["file"].get<std::string>()) +
+          "</th><th></th></tr>\n";
+  html += row("vertices", number(info["vertices"]));
+  html += row("faces", number(info["faces"]));
+  html += row("coplanar facets", number(info["facets"]));
+  html += row("objects", number(info["objects"]));
+  html += row("closed solids", number(info["solids"]));
+  for (const auto& [kind, count] : edges.items()) {
+    html += row(kind + " edges", number(count));
+  }
+  const Json& b = info["bounds"];
+  for (const int axis : {0, 1, 2}) {
+    html += row(fmt::format("{} from, to", "xyz"[axis]),
+                fmt::format("{:.6g} &hellip; {:.6g}", b[0][axis].get<double>(),
+                            b[1][axis].get<double>()));
+  }
+  html += "</table>\n<table><tr><th>group</th><th class=n>faces</th></tr>\n";
+  constexpr std::size_t kShown = 16;
+  const Json& groups = info["groups"];
+  for (std::size_t i = 0; i < std::min(groups.size(), kShown); ++i) {
+    html += row(html_escaped(groups[i]["name"].get<std::string>()),
+                number(groups[i]["faces"]));
+  }
+  if (groups.size() > kShown) {
+    html += row(fmt::format("and {} more", groups.size() - kShown), "");
+  }
+  return html + "</table></div>\n";
+}
+
+std::string defects_section(const Json& report) {
+  std::map<std::string, std::vector<std::string>> by_kind;
+  for (const Json& defect : report["info"]["defects"]) {
+    by_kind[defect["kind"].get<std::string>()].push_back(
+        defect["message"].get<std::string>());
+  }
+  if (by_kind.empty()) {
+    return "<h2>Defects</h2>\n<p class=\"note fine\">None found.</p>\n";
+  }
+  std::string html =
+      "<h2>Defects</h2>\n<p class=soft>The scene is used as it is; report.json lists all "
+      "with their ids.</p>\n<table><tr><th>kind</th><th class=n>count</th><th>first</th>"
+      "</tr>\n";
+  for (const auto& [kind, messages] : by_kind) {
+    html += fmt::format("<tr><td>{}</td><td class=n>{}</td><td>{}</td></tr>\n",
+                        html_escaped(kind), grouped(static_cast<int>(messages.size())),
+                        html_escaped(messages.front()));
+  }
+  return html + "</table>\n";
+}
+
+std::string missing_section(const Json& report) {
+  if (report["missing"].empty()) return "";
+  std::string html = "<div class=note><b>This answer is not complete.</b>\n";
+  for (const Json& line : report["missing"]) {
+    html += "<p>" + html_escaped(line.get<std::string>()) + "</p>\n";
+  }
+  return html + "</div>\n";
+}
+
+std::string figure(const PagePicture& picture) {
+  return fmt::format(
+      "<figure><a href=\"{}\"><img alt=\"{}\" src=\"data:image/png;base64,{}\"></a>"
+      "<figcaption><b>{}</b><br>{}</figcaption></figure>\n",
+      html_escaped(picture.file), html_escaped(picture.title), base64(picture.png),
+      html_escaped(picture.title), picture.caption);
+}
+
+std::string pictures_section(const std::vector<PagePicture>& pictures) {
+  std::string html;
+  if (!pictures.empty()) html += figure(pictures[0]);
+  if (pictures.size() > 1) {
+    html += "<div class=pair>";
+    for (std::size_t i = 1; i < pictures.size(); ++i) html += figure(pictures[i]);
+    html += "</div>\n";
+  }
+  return html;
+}
+
+std::string files_section(const Json& report) {
+  std::string html = "<h2>Files beside this page</h2>\n<p>";
+  for (const Json& file : report["files"]) {
+    const std::string name = html_escaped(file.get<std::string>());
+    html += fmt::format("<a href=\"{}\"><code>{}</code></a> ", name, name);
+  }
+  return html +
+         "</p>\n<p class=soft>Open <code>vtk/sightline.vtm</code> in ParaView, or "
+         "<code>sightline view</code> this folder.</p>\n";
+}
+
+}  // namespace
+
+std::string html_escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        out += c;
+    }
+  }
+  return out;
+}
+
+std::string base64(const std::string& bytes) {
+  static constexpr char kDigits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  out.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t byte =
+          k < left ? static_cast<std::uint8_t>(bytes[i + k]) : std::uint8_t{0};
+      group = group << 8 | byte;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+      out += k <= left ? kDigits[group >> (18 - 6 * k) & 63] : '=';
+    }
+  }
+  return out;
+}
+
+std::string report_page(const Json& report, const std::vector<PagePicture>& pictures) {
+  const Json& skeleton = report["skeleton"];
+  std::int64_t arcs = 0, nodes = 0;
+  for (const auto& [kind, n] : skeleton["arcs"].items()) arcs += n.get<std::int64_t>();
+  for (const auto& [kind, n] : skeleton["nodes"].items()) {
+    if (n.is_number()) nodes += n.get<std::int64_t>();
+  }
+  const std::string scene = html_escaped(report["scene"]["file"].get<std::string>());
+  std::string html = fmt::format(
+      "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
+      "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n"
+      "<title>Sightline: {}</title>\n<style>{}</style></head>\n<body><main>\n"
+      "<h1>Sightline: {}</h1>\n<p class=soft>The exact EV skeleton, solid mode. Version "
+      "{}, {} arithmetic.</p>\n",
+      scene, kStyle, scene, report["version"].get<std::string>(),
+      report["options"]["precision"].get<std::string>());
+  html += missing_section(report);
+  html += "<div class=cards>\n";
+  html += card(grouped(arcs), "EV line sets (arcs)");
+  html += card(grouped(nodes), "extremal lines (nodes)");
+  html += card(grouped(report["scene"]["faces"].get<std::int64_t>()), "faces");
+  html += card(seconds_text(report["seconds"].get<double>()), "in all");
+  html += card(memory_text(report["peak_memory_bytes"].get<double>()), "peak memory");
+  html += "</div>\n";
+  html += pictures_section(pictures);
+  html += counts_section(skeleton);
+  html += "<div class=two><div>" + stages_section(report) + "</div><div>" +
+          predicates_section(report) + "</div></div>\n";
+  html += scene_section(report);
+  html += defects_section(report);
+  html += files_section(report);
+  return html + "</main></body></html>\n";
+}
+
+}  // namespace sightline::viewers

@@ -1,0 +1,49 @@
+#include "viewers/palette.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace sightline::viewers {
+
+Colour colour_of_kind(std::string_view kind) {
+  static constexpr std::pair<std::string_view, Colour> kColours[] = {
+      {"EV_self", {0.42F, 0.56F, 0.66F}},    {"EV", {0.16F, 0.47F, 0.85F}},
+      {"VV", {0.84F, 0.15F, 0.24F}},         {"VEE", {0.95F, 0.55F, 0.05F}},
+      {"EVE", {0.10F, 0.60F, 0.36F}},        {"FvE", {0.52F, 0.28F, 0.74F}},
+      {"saddle", {0.10F, 0.62F, 0.66F}},     {"pierce", {0.62F, 0.40F, 0.24F}},
+      {"degenerate", {0.80F, 0.22F, 0.62F}},
+  };
+  for (const auto& [name, colour] : kColours) {
+    if (kind == name) return colour;
+  }
+  // "VV_self" is a washed-out "VV".
+  if (kind.ends_with("_self")) {
+    const Colour c = colour_of_kind(kind.substr(0, kind.size() - 5));
+    return {0.5F * c.red + 0.3F, 0.5F * c.green + 0.3F, 0.5F * c.blue + 0.3F};
+  }
+  return {0.5F, 0.5F, 0.5F};
+}
+
+std::string hex(const Colour& c) {
+  const auto byte = [](float v) { return static_cast<int>(std::lround(255 * v)); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(c.red), byte(c.green), byte(c.blue));
+}
+
+Colour colour_of_object(int object) {
+  static constexpr std::array<Colour, 10> kTones{{{0.91F, 0.89F, 0.85F},
+                                                  {0.82F, 0.72F, 0.58F},
+                                                  {0.72F, 0.80F, 0.82F},
+                                                  {0.87F, 0.76F, 0.70F},
+                                                  {0.75F, 0.81F, 0.69F},
+                                                  {0.80F, 0.75F, 0.84F},
+                                                  {0.90F, 0.84F, 0.67F},
+                                                  {0.70F, 0.76F, 0.86F},
+                                                  {0.84F, 0.70F, 0.66F},
+                                                  {0.78F, 0.78F, 0.74F}}};
+  return kTones[static_cast<std::size_t>(object) % kTones.size()];
+}
+
+}  // namespace sightline::viewers

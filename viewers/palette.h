@@ -1,0 +1,21 @@
+// One colour per kind of event, the same in pictures, VTK files and the page.
+
+#pragma once
+
+#include <string_view>
+
+#include "viewers/picture.h"
+
+namespace sightline::viewers {
+
+/// The colour of an arc or node kind by its name in answers ("EV", "VV", "VEE_self",
+/// ...); grey for an unknown one.
+[[nodiscard]] Colour colour_of_kind(std::string_view kind);
+
+/// "#rrggbb".
+[[nodiscard]] std::string hex(const Colour& colour);
+
+/// Quiet tones for objects, well apart for neighbours in the list.
+[[nodiscard]] Colour colour_of_object(int object);
+
+}  // namespace sightline::viewers

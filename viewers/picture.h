@@ -1,0 +1,84 @@
+// Pictures without a display: a z-buffer for triangles and strokes, and PNG bytes.
+//
+// Knows nothing of scenes or skeletons: drawing.h turns those into a Drawing.  Nothing
+// here decides anything geometric; it only shows.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "linespace/scene.h"
+
+namespace sightline::viewers {
+
+/// Red, green, blue in [0, 1], as stored in a PNG (sRGB).
+struct Colour {
+  float red, green, blue;
+};
+
+/// An opaque triangle, lit from both sides unless `cull_back`.
+struct PaintedTriangle {
+  std::array<Point, 3> points;
+  Colour colour;
+  bool cull_back = false;  ///< not drawn where its clockwise side faces the camera
+  int id = 0;              ///< what visible_ids() reports
+};
+
+/// A translucent triangle, unlit; overlapping ones blend whatever their order.
+struct VeilTriangle {
+  std::array<Point, 3> points;
+  Colour colour;
+  float opacity;
+};
+
+/// A straight stroke of constant width on the picture.
+struct Stroke {
+  std::array<Point, 2> points;
+  Colour colour;
+  float width;    ///< pixels
+  float opacity;  ///< where nothing hides it
+  /// Opacity where a triangle hides it.
+  float hidden_opacity = 0;
+};
+
+/// What is to be drawn, in scene units.
+struct Drawing {
+  std::vector<PaintedTriangle> triangles;
+  std::vector<VeilTriangle> veils;
+  std::vector<Stroke> strokes;
+};
+
+/// A perspective camera.
+struct Camera {
+  Point eye, target, up;
+  double field_of_view = 0.6;  ///< full vertical angle, radians
+};
+
+struct PictureOptions {
+  int width = 1400, height = 980;  ///< pixels
+  int samples = 2;                 ///< per pixel side, 1 for none
+  Colour background_top{0.965F, 0.972F, 0.984F}, background_bottom{0.845F, 0.868F, 0.9F};
+  bool ambient_occlusion = true;  ///< darken crevices, from the depth buffer
+};
+
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;  ///< rows from the top, three bytes a pixel
+};
+
+/// Draws with one thread; the same input gives the same bytes.  Triangles that reach
+/// behind the eye are clipped.  Cost: the pixels covered, times samples squared.
+[[nodiscard]] Image render(const Drawing& drawing, const Camera& camera,
+                           const PictureOptions& options = {});
+
+/// The ids of the triangles seen by each of width x height rays, -1 for the background.
+[[nodiscard]] std::vector<int> visible_ids(const Drawing& drawing, const Camera& camera,
+                                           int width, int height);
+
+/// The image as the bytes of a PNG file.
+[[nodiscard]] std::string encode_png(const Image& image);
+
+}  // namespace sightline::viewers

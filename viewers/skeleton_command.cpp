@@ -1,0 +1,191 @@
+// `sightline skeleton`: the critical line sets of a scene and where they end.
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "linespace/mesh_io.h"
+#include "viewers/command_line.h"
+#include "viewers/output_file.h"
+#include "viewers/selection.h"
+#include "viewers/skeleton_file.h"
+#include "viewers/vtk_export.h"
+
+namespace sightline::viewers {
+namespace {
+
+struct SkeletonOptions : CommonOptions {
+  std::string events = "solid";
+  std::vector<std::string> kinds{"EV"};
+  std::vector<std::string> between;
+  std::string through;
+  double budget = std::numeric_limits<double>::infinity();
+  std::vector<double> region;
+  bool list = false;
+  bool extend = false;
+  std::string output;
+};
+
+void check(const SkeletonOptions& options) {
+  if (options.events == "polygon") {
+    throw UsageError("--events polygon is not available in this version; use solid");
+  }
+  for (const std::string& kind : options.kinds) {
+    if (kind != "EV") {
+      throw UsageError(fmt::format(
+          "--kinds: '{}' is not available in this version; available: EV", kind));
+    }
+  }
+  if (!options.between.empty() && !options.through.empty()) {
+    throw UsageError("--between and --through exclude each other");
+  }
+}
+
+SkeletonRequest request_of(const SkeletonOptions& options) {
+  SkeletonRequest request;
+  request.precision = options.precision;
+  request.threads = options.threads;
+  request.budget_seconds = options.budget;
+  request.region = region_box(options.region);
+  return request;
+}
+
+Selection selection_of(const SkeletonOptions& options) {
+  Selection selection;
+  if (options.between.size() == 2) {
+    selection.between = {options.between[0], options.between[1]};
+  }
+  if (!options.through.empty()) selection.through = options.through;
+  return selection;
+}
+
+Json options_json(const SkeletonOptions& options) {
+  Json j{{"events", options.events}, {"kinds", options.kinds}};
+  j["precision"] = options.precision == Precision::Exact ? "exact" : "double";
+  if (!options.between.empty()) j["between"] = options.between;
+  if (!options.through.empty()) j["through"] = options.through;
+  if (!options.region.empty()) j["region"] = options.region;
+  return j;
+}
+
+void print_summary(const Scene& scene, const Skeleton& skeleton, const Json& answer) {
+  std::cout << fmt::format("{}: EV skeleton, solid mode{}\n", scene.soup().source,
+                           skeleton.complete ? "" : ", INCOMPLETE");
+  for (const char* what : {"arcs", "nodes"}) {
+    std::cout << fmt::format("  {}:", what);
+    for (const auto& [kind, count] : answer[what].items()) {
+      if (count.is_number() && count != 0) {
+        std::cout << fmt::format(" {} {}", kind, count.get<std::int64_t>());
+      }
+    }
+    std::cout << "\n";
+  }
+  const Json& p = answer["predicates"];
+  std::cout << fmt::format(
+      "  vertices done: {} of {}\n  {:.3f} s, {:.0f} MiB, predicates: {} double, {} "
+      "interval, {} exact\n",
+      skeleton.vertices_done, skeleton.vertices_asked, answer["seconds"].get<double>(),
+      answer["peak_memory_bytes"].get<double>() / 1048576,
+      p["double"].get<std::uint64_t>(), p["interval"].get<std::uint64_t>(),
+      p["exact"].get<std::uint64_t>());
+}
+
+ExitStatus run(const SkeletonOptions& options) {
+  check(options);
+  const Interruption interruption;
+  const Meter meter;
+  const PrecisionScope precision(options.precision);
+  const Scene scene(read_mesh(options.scene));
+  const StageCounts loading = meter.predicates();
+
+  SkeletonRequest request = request_of(options);
+  request.budget_seconds -= meter.seconds();
+  request.stop = interruption.token();
+  Skeleton skeleton;
+  {
+    Progress progress("EV skeleton");
+    request.progress = progress.callback();
+    skeleton = build_selected(scene, request, selection_of(options));
+  }
+  Json answer = answer_head("skeleton", scene, skeleton.complete,
+                            {meter.seconds(), loading + skeleton.predicates});
+  answer["options"] = options_json(options);
+  answer["nodes"] = node_counts(skeleton);
+  answer["arcs"] = arc_counts(skeleton);
+  answer["vertices_done"] = skeleton.vertices_done;
+  answer["vertices_asked"] = skeleton.vertices_asked;
+
+  std::optional<OcclusionIndex> index;
+  if (options.list || options.extend) index.emplace(scene);
+  if (!options.output.empty()) {
+    OutputFile file(options.output);
+    write_skeleton_json(file.stream(), answer, scene, skeleton, nullptr);
+    file.commit();
+  }
+  if (!options.vtk.empty()) {
+    std::vector<RuledStrip> strips;
+    if (options.extend) {
+      for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
+        strips.push_back(ruled_strip(scene, *index, skeleton, static_cast<int>(i), 9));
+      }
+    }
+    write_vtk(options.vtk, scene, {&skeleton, options.extend ? &strips : nullptr});
+  }
+  if (!options.list || options.json.empty()) {
+    write_answer(options, answer);
+  } else if (options.json == "-") {
+    write_skeleton_json(std::cout, answer, scene, skeleton, &*index);
+    std::cout << std::flush;
+  } else {
+    OutputFile file(options.json);
+    write_skeleton_json(file.stream(), answer, scene, skeleton, &*index);
+    file.commit();
+  }
+  if (options.may_print()) print_summary(scene, skeleton, answer);
+  return skeleton.complete ? kAnswered : kPartial;
+}
+
+}  // namespace
+
+Command add_skeleton_command(CLI::App& app) {
+  auto options = std::make_shared<SkeletonOptions>();
+  CLI::App* command = app.add_subcommand(
+      "skeleton",
+      "the exact EV skeleton: critical line sets and extremal stabbing lines");
+  add_scene_argument(*command, *options);
+  command
+      ->add_option("--events", options->events,
+                   "solid: lines that graze at every contact (default solid)")
+      ->type_name("solid")
+      ->check(CLI::IsMember({"solid", "polygon"}).description(""));
+  command
+      ->add_option("--kinds", options->kinds,
+                   "kinds of critical line sets, separated by commas (default EV)")
+      ->type_name("EV")
+      ->delimiter(',');
+  command
+      ->add_option("--between", options->between,
+                   "only arcs with the vertex on group A and the edge on group B or the "
+                   "other way round; a group is a name or #i-j, faces i to j from 0")
+      ->type_name("A B")
+      ->expected(2);
+  command
+      ->add_option("--through", options->through,
+                   "only arcs with the vertex or the edge on this group")
+      ->type_name("GROUP");
+  add_region_option(*command, options->region);
+  add_budget_option(*command, options->budget);
+  command->add_flag("--list", options->list,
+                    "add every node and arc to the JSON answer: generators, line, "
+                    "contacts, free segment and what ends it");
+  command->add_flag("--extend", options->extend,
+                    "with --vtk: draw arcs out to the ends of their free segments too");
+  command
+      ->add_option("-o,--output", options->output,
+                   "save the skeleton as JSON; `sightline view FILE` shows it")
+      ->type_name("FILE");
+  add_common_options(*command, *options);
+  return [options] { return run(*options); };
+}
+
+}  // namespace sightline::viewers

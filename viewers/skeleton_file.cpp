@@ -1,0 +1,177 @@
+#include "viewers/skeleton_file.h"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "viewers/drawing.h"
+#include "viewers/far_ends.h"
+
+namespace sightline::viewers {
+namespace {
+
+const char* touch_name(TouchKind kind) {
+  switch (kind) {
+    case TouchKind::Interior:
+      return "face";
+    case TouchKind::Edge:
+      return "edge";
+    case TouchKind::Corner:
+      return "vertex";
+    case TouchKind::EdgeOn:
+      return "edge-on face";
+  }
+  return "";
+}
+
+Json contact_json(const Scene& scene, const Contact& contact) {
+  Json touches = Json::array();
+  for (const Touch& touch : contact.touches) {
+    Json j{{"face", scene.faces()[touch.face].source}, {"at", touch_name(touch.kind)}};
+    touches.push_back(std::move(j));
+  }
+  return {{"kind", contact.blocked ? "end" : "graze"},
+          {"from", contact.from},
+          {"to", contact.to},
+          {"touches", std::move(touches)}};
+}
+
+/// "contacts" (positions as parameters: 0 at the first, 1 at the second point of the
+/// element's own line) and "free_segment".
+void add_far_ends(Json& element, const Scene& scene, const std::optional<FarEnds>& ends) {
+  if (!ends) {
+    element["free_segment"] = nullptr;
+    return;
+  }
+  Json contacts = Json::array();
+  for (const Contact& c : ends->contacts) contacts.push_back(contact_json(scene, c));
+  element["contacts"] = std::move(contacts);
+  Json far = Json::array();
+  for (const std::vector<int>& faces : ends->faces) {
+    if (faces.empty()) {
+      far.push_back("outside");
+    } else {
+      far.push_back({{"faces", faces}});
+    }
+  }
+  element["free_segment"] = {{"points", points_json(ends->points)}, {"ends", far}};
+}
+
+Generator generator_from(const Json& j) {
+  const std::string type = j.at("type").get<std::string>();
+  const auto kind = type == "vertex" ? GeneratorKind::Vertex
+                    : type == "edge" ? GeneratorKind::Edge
+                                     : GeneratorKind::Face;
+  return {kind, j.at("id").get<std::int32_t>()};
+}
+
+Point point_from(const Json& j) {
+  return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()};
+}
+
+NodeKind kind_from(const std::string& name) {
+  for (const NodeKind kind : {NodeKind::VV, NodeKind::VEE, NodeKind::EVE, NodeKind::FvE,
+                              NodeKind::Saddle, NodeKind::Pierce, NodeKind::Degenerate}) {
+    SkeletonNode node{};
+    node.kind = kind;
+    if (kind_name(node) == name.substr(0, name.find("_self"))) return kind;
+  }
+  throw InvalidInput("unknown kind of node " + name);
+}
+
+StoredSkeleton skeleton_from(const Json& j) {
+  StoredSkeleton stored;
+  stored.scene_file = j.at("scene").at("file").get<std::string>();
+  Skeleton& skeleton = stored.skeleton;
+  skeleton.complete = j.at("complete").get<bool>();
+  for (const Json& n : j.at("list").at("nodes")) {
+    SkeletonNode node{};
+    const std::string name = n.at("kind").get<std::string>();
+    node.kind = kind_from(name);
+    node.self = name.ends_with("_self");
+    node.end = n.value("end", false);
+    node.first_generator = static_cast<std::uint32_t>(skeleton.generator_pool.size());
+    for (const Json& g : n.at("generators")) {
+      skeleton.generator_pool.push_back(generator_from(g));
+    }
+    node.generator_count = static_cast<std::uint16_t>(n.at("generators").size());
+    node.segment = {point_from(n.at("line").at(0)), point_from(n.at("line").at(1))};
+    skeleton.nodes.push_back(node);
+  }
+  for (const Json& a : j.at("list").at("arcs")) {
+    SkeletonArc arc{};
+    arc.vertex = a.at("vertex").at("id").get<std::int32_t>();
+    arc.edge = a.at("edge").at("id").get<std::int32_t>();
+    arc.self = a.at("kind").get<std::string>().ends_with("_self");
+    for (const int i : {0, 1}) {
+      arc.range[i] = a.at("range").at(i).get<double>();
+      arc.nodes[i] = a.at("nodes").at(i).get<std::uint32_t>();
+    }
+    skeleton.arcs.push_back(arc);
+  }
+  return stored;
+}
+
+}  // namespace
+
+void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
+                         const Skeleton& skeleton, const OcclusionIndex* index) {
+  std::string text = head.dump(1);
+  text.erase(text.find_last_not_of("}\n ") + 1);  // leave the object open
+  stream << text << ",\n \"list\": {\n  \"nodes\": [";
+  for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
+    Json node = node_json(scene, skeleton, i);
+    if (index != nullptr) {
+      add_far_ends(node, scene, far_ends(scene, *index, skeleton.nodes[i]));
+    }
+    stream << (i == 0 ? "\n   " : ",\n   ") << node.dump();
+  }
+  stream << "\n  ],\n  \"arcs\": [";
+  for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
+    Json arc = arc_json(scene, skeleton, i);
+    if (index != nullptr) {
+      const SkeletonArc& a = skeleton.arcs[i];
+      const double middle = 0.5 * (a.range[0] + a.range[1]);
+      arc["line"] = points_json(
+          {scene.point(a.vertex), point_on_edge(scene, scene.edges()[a.edge], middle)});
+      add_far_ends(arc, scene, far_ends(scene, *index, a, middle));
+    }
+    stream << (i == 0 ? "\n   " : ",\n   ") << arc.dump();
+  }
+  stream << "\n  ]\n }\n}\n";
+}
+
+StoredSkeleton read_skeleton_json(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw InvalidInput(path + ": cannot be read");
+  try {
+    return skeleton_from(Json::parse(stream));
+  } catch (const nlohmann::json::exception& error) {
+    throw InvalidInput(fmt::format("{}: not a saved skeleton: {}", path, error.what()));
+  }
+}
+
+void check_fits(const StoredSkeleton& stored, const Scene& scene) {
+  const auto require = [&](bool fits) {
+    if (!fits) {
+      throw InvalidInput("the saved skeleton does not belong to " + scene.soup().source);
+    }
+  };
+  const auto below = [](std::int64_t id, std::size_t size) {
+    return id >= 0 && static_cast<std::size_t>(id) < size;
+  };
+  for (const Generator& g : stored.skeleton.generator_pool) {
+    const std::size_t size = g.kind == GeneratorKind::Vertex ? scene.points().size()
+                             : g.kind == GeneratorKind::Edge ? scene.edges().size()
+                                                             : scene.facets().size();
+    require(below(g.id, size));
+  }
+  for (const SkeletonArc& arc : stored.skeleton.arcs) {
+    require(below(arc.vertex, scene.points().size()));
+    require(below(arc.edge, scene.edges().size()));
+    require(below(arc.nodes[0], stored.skeleton.nodes.size()));
+    require(below(arc.nodes[1], stored.skeleton.nodes.size()));
+  }
+}
+
+}  // namespace sightline::viewers

@@ -1,0 +1,32 @@
+// Skeletons as JSON: streamed out with or without what lies along each line, read back.
+
+#pragma once
+
+#include <ostream>
+#include <string>
+
+#include "linespace/occlusion.h"
+#include "skeleton/ev_skeleton.h"
+#include "viewers/answer.h"
+
+namespace sightline::viewers {
+
+/// Writes `head` with one more key, "list": {"nodes": [...], "arcs": [...]}, one element
+/// at a time, so that no copy of it is held.  With an index, each element also has its
+/// "contacts" in order and its "free_segment" (null where rounding hides it).
+void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
+                         const Skeleton& skeleton, const OcclusionIndex* index);
+
+/// A skeleton read back, with the name of the scene it was made from.
+struct StoredSkeleton {
+  std::string scene_file;
+  Skeleton skeleton;
+};
+
+/// Reads what write_skeleton_json wrote.  Throws InvalidInput.
+[[nodiscard]] StoredSkeleton read_skeleton_json(const std::string& path);
+
+/// Throws InvalidInput when an id of the skeleton is not one of the scene.
+void check_fits(const StoredSkeleton& stored, const Scene& scene);
+
+}  // namespace sightline::viewers

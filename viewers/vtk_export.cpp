@@ -1,0 +1,404 @@
+#include "viewers/vtk_export.h"
+
+#include <fmt/format.h>
+#include <vtkCellArray.h>
+#include <vtkCellArrayIterator.h>
+#include <vtkCellData.h>
+#include <vtkCompositeDataIterator.h>
+#include <vtkCompositeDataSet.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkInformation.h>
+#include <vtkIntArray.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkXMLMultiBlockDataReader.h>
+#include <vtkXMLPolyDataReader.h>
+#include <vtkXMLPolyDataWriter.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "viewers/output_file.h"
+#include "viewers/palette.h"
+
+namespace sightline::viewers {
+namespace {
+
+/// Polygons or lines with arrays of one tuple a cell, in the making.
+class Cells {
+ public:
+  Cells() {
+    points_->SetDataTypeToDouble();
+    colours_->SetName("colour");
+    colours_->SetNumberOfComponents(3);
+  }
+
+  vtkIdType add_point(const Point& p) {
+    return points_->InsertNextPoint(p.x(), p.y(), p.z());
+  }
+  void add_polygon(std::initializer_list<Point> corners, const Colour& colour) {
+    std::vector<vtkIdType> ids;
+    for (const Point& p : corners) ids.push_back(add_point(p));
+    add_polygon(ids, colour);
+  }
+  void add_polygon(const std::vector<vtkIdType>& ids, const Colour& colour) {
+    polygons_->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
+    add_colour(colour);
+  }
+  void add_line(const Point& a, const Point& b, const Colour& colour) {
+    const vtkIdType ids[2] = {add_point(a), add_point(b)};
+    lines_->InsertNextCell(2, ids);
+    add_colour(colour);
+  }
+
+  /// Appends one tuple to the named cell array.
+  void value(const char* name, std::initializer_list<int> tuple) {
+    vtkSmartPointer<vtkIntArray>& array = integers_[name];
+    if (!array) array = named<vtkIntArray>(name, static_cast<int>(tuple.size()));
+    for (const int v : tuple) array->InsertNextValue(v);
+  }
+  void value(const char* name, std::initializer_list<double> tuple) {
+    vtkSmartPointer<vtkDoubleArray>& array = reals_[name];
+    if (!array) array = named<vtkDoubleArray>(name, static_cast<int>(tuple.size()));
+    for (const double v : tuple) array->InsertNextValue(v);
+  }
+  void value(const char* name, const std::string& text) {
+    vtkSmartPointer<vtkStringArray>& array = texts_[name];
+    if (!array) array = named<vtkStringArray>(name, 1);
+    array->InsertNextValue(text);
+  }
+
+  [[nodiscard]] bool empty() const { return colours_->GetNumberOfTuples() == 0; }
+
+  [[nodiscard]] vtkSmartPointer<vtkPolyData> poly_data() const {
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points_);
+    data->SetPolys(polygons_);
+    data->SetLines(lines_);
+    for (const auto& [name, array] : integers_) data->GetCellData()->AddArray(array);
+    for (const auto& [name, array] : reals_) data->GetCellData()->AddArray(array);
+    for (const auto& [name, array] : texts_) data->GetCellData()->AddArray(array);
+    data->GetCellData()->SetScalars(colours_);
+    return data;
+  }
+
+ private:
+  template <typename Array>
+  static vtkSmartPointer<Array> named(const char* name, int components) {
+    vtkNew<Array> array;
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    return array;
+  }
+  void add_colour(const Colour& colour) {
+    for (const float c : {colour.red, colour.green, colour.blue}) {
+      colours_->InsertNextValue(static_cast<unsigned char>(std::lround(255 * c)));
+    }
+  }
+
+  vtkNew<vtkPoints> points_;
+  vtkNew<vtkCellArray> polygons_, lines_;
+  vtkNew<vtkUnsignedCharArray> colours_;
+  std::map<std::string, vtkSmartPointer<vtkIntArray>> integers_;
+  std::map<std::string, vtkSmartPointer<vtkDoubleArray>> reals_;
+  std::map<std::string, vtkSmartPointer<vtkStringArray>> texts_;
+};
+
+vtkSmartPointer<vtkPolyData> scene_cells(const Scene& scene) {
+  Cells cells;
+  const PolygonSoup& soup = scene.soup();
+  for (const Point& p : soup.vertices) cells.add_point(p);
+  std::vector<int> face_of(soup.polygons.size(), -1);
+  for (int f = static_cast<int>(scene.faces().size()) - 1; f >= 0; --f) {
+    face_of[scene.faces()[f].source] = f;
+  }
+  for (std::size_t i = 0; i < soup.polygons.size(); ++i) {
+    const int f = face_of[i];
+    const int object = f < 0 ? -1 : scene.faces()[f].object;
+    cells.add_polygon({soup.polygons[i].begin(), soup.polygons[i].end()},
+                      colour_of_object(std::max(object, 0)));
+    cells.value("polygon", {static_cast<int>(i)});
+    cells.value("face", {f});
+    cells.value("facet", {f < 0 ? -1 : scene.faces()[f].facet});
+    cells.value("object", {object});
+  }
+  vtkSmartPointer<vtkPolyData> data = cells.poly_data();
+  vtkNew<vtkStringArray> names;
+  names->SetName("object_names");
+  for (const Object& object : scene.objects()) names->InsertNextValue(object.name);
+  data->GetFieldData()->AddArray(names);
+  return data;
+}
+
+vtkSmartPointer<vtkPolyData> edge_cells(const Scene& scene) {
+  static constexpr Colour kInks[] = {{0.17F, 0.18F, 0.22F},
+                                     {0.55F, 0.57F, 0.62F},
+                                     {0.8F, 0.8F, 0.8F},
+                                     {0.16F, 0.47F, 0.55F},
+                                     {0.84F, 0.15F, 0.24F}};
+  Cells cells;
+  for (std::size_t i = 0; i < scene.edges().size(); ++i) {
+    const Edge& edge = scene.edges()[i];
+    const int kind = static_cast<int>(edge.kind);
+    cells.add_line(scene.point(edge.points[0]), scene.point(edge.points[1]), kInks[kind]);
+    cells.value("edge", {static_cast<int>(i)});
+    cells.value("edge_kind", {kind});
+    cells.value("object", {edge.object});
+  }
+  return cells.poly_data();
+}
+
+/// Blocks by name; a block may stay empty and is then left out.
+using Blocks = std::map<std::string, Cells>;
+
+void add_arc_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton) {
+  for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
+    const SkeletonArc& arc = skeleton.arcs[i];
+    const Edge& edge = scene.edges()[arc.edge];
+    const std::string kind = kind_name(arc);
+    Cells& cells = blocks["arcs_" + kind];
+    cells.add_polygon({scene.point(arc.vertex), point_on_edge(scene, edge, arc.range[0]),
+                       point_on_edge(scene, edge, arc.range[1])},
+                      colour_of_kind(kind));
+    cells.value("arc", {static_cast<int>(i)});
+    cells.value("vertex", {arc.vertex});
+    cells.value("edge", {arc.edge});
+    cells.value("objects",
+                {scene.edges()[scene.edges_at(arc.vertex)[0]].object, edge.object});
+    cells.value("range", {arc.range[0], arc.range[1]});
+    cells.value("nodes",
+                {static_cast<int>(arc.nodes[0]), static_cast<int>(arc.nodes[1])});
+    cells.value("kind", kind);
+  }
+}
+
+void add_strip_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton,
+                      const std::vector<RuledStrip>& strips) {
+  for (const RuledStrip& strip : strips) {
+    const SkeletonArc& arc = skeleton.arcs[strip.arc];
+    const Point& v = scene.point(arc.vertex);
+    Cells& cells = blocks["strips_" + kind_name(arc)];
+    for (std::size_t i = 1; i < strip.rungs.size(); ++i) {
+      const FarEnds& a = strip.rungs[i - 1];
+      const FarEnds& b = strip.rungs[i];
+      for (const int side : {0, 1}) {
+        if (a.faces[side] != b.faces[side]) continue;
+        cells.add_polygon({v, a.points[side], b.points[side]},
+                          colour_of_kind(kind_name(arc)));
+        cells.value("arc", {strip.arc});
+        cells.value("side", {side});
+        cells.value("far_polygon", {a.faces[side].empty() ? -1 : a.faces[side][0]});
+      }
+    }
+  }
+}
+
+std::string generator_text(const Skeleton& skeleton, const SkeletonNode& node) {
+  std::string text;
+  for (const Generator& g : skeleton.generators(node)) {
+    const char letter = "VEF"[static_cast<int>(g.kind)];
+    text += fmt::format("{}{}{}", text.empty() ? "" : " ", letter, g.id);
+  }
+  return text;
+}
+
+void add_node_blocks(Blocks& blocks, const Skeleton& skeleton) {
+  for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
+    const SkeletonNode& node = skeleton.nodes[i];
+    const std::string kind = kind_name(node);
+    Cells& cells = blocks["nodes_" + kind];
+    cells.add_line(node.segment[0], node.segment[1], colour_of_kind(kind));
+    cells.value("node", {static_cast<int>(i)});
+    cells.value("generators", generator_text(skeleton, node));
+    cells.value("self", {node.self ? 1 : 0});
+    cells.value("end", {node.end ? 1 : 0});
+    cells.value("kind", kind);
+  }
+}
+
+void write_poly_data(const std::filesystem::path& path, vtkPolyData* data) {
+  OutputFile file(path);
+  vtkNew<vtkXMLPolyDataWriter> writer;
+  writer->SetFileName(file.temporary_path().c_str());
+  writer->SetInputData(data);
+  writer->SetEncodeAppendedData(0);
+  if (writer->Write() == 0) {
+    throw OutputError(path.string() + ": cannot be written: VTK's writer failed");
+  }
+  file.commit();
+}
+
+/// The index of blocks.  Written by hand because VTK's own writer would put the pieces
+/// into a folder under numbers instead of names.
+std::string multi_block_text(const std::vector<std::string>& blocks) {
+  std::string text =
+      "<?xml version=\"1.0\"?>\n"
+      "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
+      "byte_order=\"LittleEndian\" header_type=\"UInt32\">\n"
+      "  <vtkMultiBlockDataSet>\n";
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    text += fmt::format("    <DataSet index=\"{}\" name=\"{}\" file=\"{}.vtp\"/>\n", i,
+                        blocks[i], blocks[i]);
+  }
+  return text + "  </vtkMultiBlockDataSet>\n</VTKFile>\n";
+}
+
+Colour cell_colour(vtkPolyData* data, vtkIdType cell) {
+  auto* colours =
+      vtkUnsignedCharArray::SafeDownCast(data->GetCellData()->GetArray("colour"));
+  if (colours == nullptr || colours->GetNumberOfComponents() != 3)
+    return {0.4F, 0.4F, 0.5F};
+  const unsigned char* c = colours->GetPointer(3 * cell);
+  return {static_cast<float>(c[0]) / 255, static_cast<float>(c[1]) / 255,
+          static_cast<float>(c[2]) / 255};
+}
+
+Point point_of(vtkPolyData* data, vtkIdType id) {
+  Point p;
+  data->GetPoint(id, p.data());
+  return p;
+}
+
+void read_scene(VtkPicture& picture, vtkPolyData* data) {
+  for (vtkIdType i = 0; i < data->GetNumberOfPoints(); ++i) {
+    picture.soup.vertices.push_back(point_of(data, i));
+  }
+  auto* objects = vtkIntArray::SafeDownCast(data->GetCellData()->GetArray("object"));
+  auto* names = vtkStringArray::SafeDownCast(
+      data->GetFieldData()->GetAbstractArray("object_names"));
+  if (objects != nullptr && names != nullptr) {
+    for (vtkIdType i = 0; i < names->GetNumberOfValues(); ++i) {
+      picture.soup.groups.push_back({names->GetValue(i), {}});
+    }
+  }
+  const auto cells = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
+  for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell()) {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cells->GetCurrentCell(count, ids);
+    picture.soup.polygons.emplace_back(ids, ids + count);
+    if (picture.soup.groups.empty()) continue;
+    const int object = objects->GetValue(cells->GetCurrentCellId());
+    if (object >= 0 && object < static_cast<int>(picture.soup.groups.size())) {
+      picture.soup.groups[object].faces.push_back(
+          static_cast<int>(picture.soup.polygons.size()) - 1);
+    }
+  }
+  std::erase_if(picture.soup.groups, [](const auto& g) { return g.faces.empty(); });
+}
+
+void read_marks(VtkPicture& picture, vtkPolyData* data) {
+  // VTK numbers the cells of lines before those of polygons.
+  const vtkIdType lines = data->GetNumberOfLines();
+  const auto line = vtk::TakeSmartPointer(data->GetLines()->NewIterator());
+  for (line->GoToFirstCell(); !line->IsDoneWithTraversal(); line->GoToNextCell()) {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    line->GetCurrentCell(count, ids);
+    for (vtkIdType i = 1; i < count; ++i) {
+      picture.strokes.push_back({{point_of(data, ids[i - 1]), point_of(data, ids[i])},
+                                 cell_colour(data, line->GetCurrentCellId()),
+                                 1.4F,
+                                 0.6F,
+                                 0.08F});
+    }
+  }
+  const auto cell = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
+  for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell()) {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    cell->GetCurrentCell(count, ids);
+    for (vtkIdType i = 2; i < count; ++i) {
+      picture.veils.push_back(
+          {{point_of(data, ids[0]), point_of(data, ids[i - 1]), point_of(data, ids[i])},
+           cell_colour(data, lines + cell->GetCurrentCellId()),
+           0.1F});
+    }
+  }
+}
+
+vtkSmartPointer<vtkPolyData> read_poly_data(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file)) {
+    throw InvalidInput(file.string() + ": no such file");
+  }
+  vtkNew<vtkXMLPolyDataReader> reader;
+  if (reader->CanReadFile(file.c_str()) == 0) {
+    throw InvalidInput(file.string() + ": not a VTK PolyData file");
+  }
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  return reader->GetOutput();
+}
+
+}  // namespace
+
+std::vector<std::string> write_vtk(const std::filesystem::path& folder,
+                                   const Scene& scene, const VtkContents& contents) {
+  make_folder(folder);
+  std::vector<std::string> names{"scene", "edges"};
+  write_poly_data(folder / "scene.vtp", scene_cells(scene));
+  write_poly_data(folder / "edges.vtp", edge_cells(scene));
+  Blocks blocks;
+  if (contents.skeleton != nullptr) {
+    add_arc_blocks(blocks, scene, *contents.skeleton);
+    add_node_blocks(blocks, *contents.skeleton);
+    if (contents.strips != nullptr) {
+      add_strip_blocks(blocks, scene, *contents.skeleton, *contents.strips);
+    }
+  }
+  for (const auto& [name, cells] : blocks) {
+    if (cells.empty()) continue;
+    write_poly_data(folder / (name + ".vtp"), cells.poly_data());
+    names.push_back(name);
+  }
+  write_whole(folder / "sightline.vtm", multi_block_text(names));
+  std::vector<std::string> files;
+  for (const std::string& name : names) files.push_back(name + ".vtp");
+  files.emplace_back("sightline.vtm");
+  return files;
+}
+
+VtkPicture read_vtk(const std::filesystem::path& file) {
+  VtkPicture picture;
+  picture.soup.source = file.string();
+  if (file.extension() == ".vtp") {
+    const std::filesystem::path scene = file.parent_path() / "scene.vtp";
+    read_scene(picture, read_poly_data(scene));
+    if (file.filename() != "scene.vtp") read_marks(picture, read_poly_data(file));
+    return picture;
+  }
+  if (!std::filesystem::is_regular_file(file)) {
+    throw InvalidInput(file.string() + ": no such file");
+  }
+  vtkNew<vtkXMLMultiBlockDataReader> reader;
+  if (reader->CanReadFile(file.c_str()) == 0) {
+    throw InvalidInput(file.string() + ": not a VTK multi-block file");
+  }
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  auto* blocks = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutput());
+  for (unsigned i = 0; blocks != nullptr && i < blocks->GetNumberOfBlocks(); ++i) {
+    auto* data = vtkPolyData::SafeDownCast(blocks->GetBlock(i));
+    if (data == nullptr) continue;
+    const char* key = blocks->GetMetaData(i)->Get(vtkCompositeDataSet::NAME());
+    const std::string name = key == nullptr ? "" : key;
+    if (name == "scene") {
+      read_scene(picture, data);
+    } else if (name != "edges") {
+      read_marks(picture, data);
+    }
+  }
+  if (picture.soup.polygons.empty()) {
+    throw InvalidInput(file.string() + ": has no block named scene");
+  }
+  return picture;
+}
+
+}  // namespace sightline::viewers

@@ -1,0 +1,52 @@
+// Scenes and skeletons as VTK files, with a .vtm that ParaView opens ready to look at.
+
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "skeleton/ev_skeleton.h"
+#include "viewers/drawing.h"
+
+namespace sightline::viewers {
+
+/// What goes into the files besides the scene; pointers may be null.
+struct VtkContents {
+  const Skeleton* skeleton = nullptr;
+  /// Arcs drawn out to their far ends, as a block of their own.
+  const std::vector<RuledStrip>* strips = nullptr;
+};
+
+/// Writes into `folder` (made if need be) and returns the names of the files:
+///   scene.vtp   polygons of the file; cell arrays polygon, face, facet, object, colour;
+///               field array object_names
+///   edges.vtp   generating edges as lines; edge, edge_kind, object, colour
+///   arcs_EV.vtp, arcs_EV_self.vtp
+///               an arc is the triangle between its vertex and its part of the edge; arc,
+///               vertex, edge, range, nodes, kind, colour
+///   strips_EV.vtp, ...
+///               arcs as ruled strips from far end to far end; arc, side (0 before the
+///               contacts, 1 behind them), far_polygon (-1 outside), colour
+///   nodes_VV.vtp, nodes_VEE.vtp, ...
+///               an extremal line's part between its outermost contacts; node,
+///               generators (text), self, end, kind, colour
+///   sightline.vtm
+///               all of these as named blocks
+/// `colour` is an RGB array and the active scalars.  Each file is written whole or not at
+/// all.  Throws OutputError.
+std::vector<std::string> write_vtk(const std::filesystem::path& folder,
+                                   const Scene& scene, const VtkContents& contents);
+
+/// What view can show of files written by write_vtk.
+struct VtkPicture {
+  PolygonSoup soup;                 ///< the block "scene"
+  std::vector<VeilTriangle> veils;  ///< arcs and strips
+  std::vector<Stroke> strokes;      ///< nodes
+};
+
+/// Reads a .vtm of ours, or a single .vtp of ours beside its scene.vtp.  Throws
+/// InvalidInput.
+[[nodiscard]] VtkPicture read_vtk(const std::filesystem::path& file);
+
+}  // namespace sightline::viewers
