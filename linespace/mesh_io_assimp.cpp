@@ -27,7 +27,8 @@ Eigen::Affine3d transformation(const aiMatrix4x4& m) {
 }
 
 // Walks the tree of nodes: their transformations are composed in double, which assimp's
-// own flattening does in single precision, and their names make the groups.
+// own flattening does in single precision, and their names make the groups.  A node's
+// group has the faces of all nodes below it.
 class SceneWalker {
  public:
   explicit SceneWalker(const aiScene& scene) : scene_(scene) {}
@@ -36,20 +37,58 @@ class SceneWalker {
     if (scene_.mRootNode != nullptr) {
       visit(*scene_.mRootNode, Eigen::Affine3d::Identity());
     }
+    name_groups();
     return std::move(soup_);
   }
 
  private:
+  // The faces [first, last) of a node and of all below it.
+  struct NamedRange {
+    std::string name;
+    int first, last;
+    bool is_root;
+  };
+
   void visit(const aiNode& node, const Eigen::Affine3d& parent) {
     const Eigen::Affine3d to_world = parent * transformation(node.mTransformation);
+    const int first = static_cast<int>(soup_.polygons.size());
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
-      append(*scene_.mMeshes[node.mMeshes[i]], to_world, node.mName.C_Str());
+      append(*scene_.mMeshes[node.mMeshes[i]], to_world);
     }
     for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], to_world);
+    const int last = static_cast<int>(soup_.polygons.size());
+    const std::string name = node.mName.C_Str();
+    if (last > first && !name.empty()) {
+      ranges_.push_back({name, first, last, node.mParent == nullptr});
+    }
   }
 
-  void append(const aiMesh& mesh, const Eigen::Affine3d& to_world,
-              const std::string& name) {
+  // A face's object is the first group that lists it: of the nodes above it the nearest
+  // whose name is its own; names that several nodes bear ("IfcMappedItem") and the root's
+  // come last.  Children stand before their parents in `ranges_`.
+  void name_groups() {
+    std::unordered_map<std::string, int> uses;
+    for (const auto& range : ranges_) ++uses[range.name];
+    const auto rank = [&](const NamedRange& range) {
+      return range.is_root ? 2 : uses[range.name] > 1 ? 1 : 0;
+    };
+    std::stable_sort(ranges_.begin(), ranges_.end(),
+                     [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
+    std::unordered_map<std::string, std::size_t> numbers;
+    for (const auto& range : ranges_) {
+      const auto [entry, is_new] = numbers.emplace(range.name, soup_.groups.size());
+      if (is_new) soup_.groups.push_back({range.name, {}});
+      auto& faces = soup_.groups[entry->second].faces;
+      for (int f = range.first; f < range.last; ++f) faces.push_back(f);
+    }
+    for (auto& group : soup_.groups) {
+      std::sort(group.faces.begin(), group.faces.end());
+      group.faces.erase(std::unique(group.faces.begin(), group.faces.end()),
+                        group.faces.end());
+    }
+  }
+
+  void append(const aiMesh& mesh, const Eigen::Affine3d& to_world) {
     const int first = static_cast<int>(soup_.vertices.size());
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
       const aiVector3D& v = mesh.mVertices[i];
@@ -65,22 +104,13 @@ class SceneWalker {
         polygon.push_back(first + static_cast<int>(face.mIndices[j]));
       }
       if (mirrored) std::reverse(polygon.begin(), polygon.end());
-      if (!name.empty()) {
-        group_named(name).faces.push_back(static_cast<int>(soup_.polygons.size()));
-      }
       soup_.polygons.push_back(std::move(polygon));
     }
   }
 
-  PolygonSoup::Group& group_named(const std::string& name) {
-    const auto [entry, is_new] = numbers_.emplace(name, soup_.groups.size());
-    if (is_new) soup_.groups.push_back({name, {}});
-    return soup_.groups[entry->second];
-  }
-
   const aiScene& scene_;
   PolygonSoup soup_;
-  std::unordered_map<std::string, std::size_t> numbers_;
+  std::vector<NamedRange> ranges_;
 };
 
 std::string one_line(std::string text) {

@@ -39,6 +39,9 @@ class ObjReader {
                   "names vertex " + std::to_string(late_index_) + " of " +
                       std::to_string(soup_.vertices.size()));
     }
+    // A face under an `o` and a `g` belongs to the object of the latter, the finer name.
+    std::stable_partition(soup_.groups.begin(), soup_.groups.end(),
+                          [&](const auto& g) { return from_g_[numbers_.at(g.name)]; });
     return std::move(soup_);
   }
 
@@ -69,6 +72,7 @@ class ObjReader {
       groups_.clear();
       for (auto name = line.token(); !name.empty(); name = line.token()) {
         groups_.push_back(group_named(std::string(name)));
+        from_g_[groups_.back()] = true;
       }
     } else if (word == "o") {
       groups_.clear();
@@ -116,7 +120,10 @@ class ObjReader {
   int group_named(const std::string& name) {
     const auto [entry, is_new] =
         numbers_.emplace(name, static_cast<int>(soup_.groups.size()));
-    if (is_new) soup_.groups.push_back({name, {}});
+    if (is_new) {
+      soup_.groups.push_back({name, {}});
+      from_g_.push_back(false);
+    }
     return entry->second;
   }
 
@@ -129,8 +136,9 @@ class ObjReader {
   LineReader lines_;
   PolygonSoup soup_;
   std::unordered_map<std::string, int> numbers_;
-  std::vector<int> groups_;  // of the last `g`
-  int object_ = -1;          // of the last `o`
+  std::vector<bool> from_g_;  // per group: some `g` line names it
+  std::vector<int> groups_;   // of the last `g`
+  int object_ = -1;           // of the last `o`
   long long late_index_ = 0;
   std::size_t late_line_ = 0;
 };

@@ -140,10 +140,10 @@ void SceneBuilder::make_faces() {
     for (const int v : polygon) ring.push_back(weld[v]);
     auto repeats = repeated_vertices(polygon, weld);
     if (!repeats.empty()) {
-      report("repeated vertex",
-             name + " passes more than once through the place of vertex " +
-                 std::to_string(repeats.front()),
-             {source}, std::move(repeats));
+      const std::string message = name +
+                                  " passes more than once through the place of vertex " +
+                                  std::to_string(repeats.front());
+      report("repeated vertex", message, {source}, std::move(repeats));
       ring = without_spikes(ring);
     }
     const PolygonPieces pieces = cut_into_pieces(soup.vertices, ring);

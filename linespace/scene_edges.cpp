@@ -310,6 +310,7 @@ void SceneBuilder::join_edges() {
   std::vector<std::uint8_t> done(mesh_edges.size(), 0);
   std::vector<int> chain_of(mesh_edges.size(), -1);  // first mesh edge of its chain
   std::vector<int> first_of_edge;                    // mesh edge, per maximal edge
+  scene.edges_.reserve(candidates.size());
   for (const int e : candidates) {
     if (done[e]) continue;
     done[e] = 1;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "linespace/predicates.h"
 #include "linespace/scene.h"
 
 namespace sightline::internal {
@@ -36,6 +37,10 @@ class DisjointSets {
  private:
   std::vector<int> parent_;
 };
+
+/// Which way a, b, c turn when dropped along a coordinate axis (0, 1, 2), seen against
+/// it.
+[[nodiscard]] Sign orient2d(int axis, const Point& a, const Point& b, const Point& c);
 
 /// Convex pieces of one polygon of the file.
 struct PolygonPieces {

@@ -10,13 +10,18 @@
 #include "linespace/scene_internal.h"
 
 namespace sightline::internal {
+
+// orient3d with a fourth point that stands on the plane over the first.
+Sign orient2d(int axis, const Point& a, const Point& b, const Point& c) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  return orient3d({a[u], a[v], 0}, {b[u], b[v], 0}, {c[u], c[v], 0}, {a[u], a[v], 1});
+}
+
 namespace {
 
 using Point2 = std::array<double, 2>;
 
-// Orientation of three points of a coordinate plane: orient3d with a fourth point that
-// stands on the plane over the first.
-Sign orient2d(const Point2& a, const Point2& b, const Point2& c) {
+Sign turn_of(const Point2& a, const Point2& b, const Point2& c) {
   return orient3d({a[0], a[1], 0}, {b[0], b[1], 0}, {c[0], c[1], 0}, {a[0], a[1], 1});
 }
 
@@ -48,7 +53,7 @@ struct Projected {
   Sign turn;
 
   Sign corner(int a, int b, int c) const {
-    return turn * orient2d(points[a], points[b], points[c]);
+    return turn * turn_of(points[a], points[b], points[c]);
   }
 };
 
@@ -67,15 +72,14 @@ Projected project(std::span<const Point> points, const std::array<Point, 3>& tri
   const Point normal = area_vector(points);
   const auto axes = axes_by_size(normal);
   const int axis = *std::find_if(axes.begin(), axes.end(), [&](int k) {
-    return orient2d(dropped(triangle[0], k), dropped(triangle[1], k),
-                    dropped(triangle[2], k)) != Sign::Zero;
+    return orient2d(k, triangle[0], triangle[1], triangle[2]) != Sign::Zero;
   });
   Projected projected;
   for (const Point& p : points) projected.points.push_back(dropped(p, axis));
   const auto& q = projected.points;
   const std::size_t n = q.size();
   const std::size_t low = std::min_element(q.begin(), q.end()) - q.begin();
-  projected.turn = orient2d(q[(low + n - 1) % n], q[low], q[(low + 1) % n]);
+  projected.turn = turn_of(q[(low + n - 1) % n], q[low], q[(low + 1) % n]);
   if (projected.turn == Sign::Zero) {
     projected.turn = normal[axis] < 0 ? Sign::Negative : Sign::Positive;
   }
@@ -124,8 +128,8 @@ bool crosses_itself(const std::vector<Point2>& q) {
       const int j = order[t];
       const Point2 &c = q[j], &d = q[(j + 1) % n];
       if (!boxes_meet(a, b, c, d)) continue;
-      if (orient2d(a, b, c) * orient2d(a, b, d) == Sign::Negative &&
-          orient2d(c, d, a) * orient2d(c, d, b) == Sign::Negative) {
+      if (turn_of(a, b, c) * turn_of(a, b, d) == Sign::Negative &&
+          turn_of(c, d, a) * turn_of(c, d, b) == Sign::Negative) {
         return true;
       }
     }
