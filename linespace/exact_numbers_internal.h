@@ -244,7 +244,8 @@ inline constexpr double kRadiusSlack = 1 + 16 * kUnit;
 
 // (a.hi + a.lo) (b.hi + b.lo): the first product is exact, a.lo b.lo is left out, and
 // four operations round.  Products below 2^-900 may also underflow, which costs at most
-// 2^-1074 for each of under twenty operations (2^-1060 covers all).
+// 2^-1074 for each of under twenty operations (2^-1000, still a normal number, covers
+// all).
 [[nodiscard]] inline Ball operator*(const Ball& a, const Ball& b) {
   const auto [p, rest] = two_product(a.hi, b.hi);
   const double ab = a.hi * b.lo;
@@ -257,7 +258,7 @@ inline constexpr double kRadiusSlack = 1 + 16 * kUnit;
       kUnit * ((std::abs(ab) + std::abs(ba)) + (std::abs(t) + std::abs(low)));
   const double inherited = (std::abs(a.hi) + std::abs(a.lo)) * b.radius +
                            a.radius * (std::abs(b.hi) + std::abs(b.lo) + b.radius);
-  return {hi, lo, (inherited + (left_out + rounding) + 0x1p-1060) * kRadiusSlack};
+  return {hi, lo, (inherited + (left_out + rounding) + 0x1p-1000) * kRadiusSlack};
 }
 
 /// nullopt when the interval contains 0.

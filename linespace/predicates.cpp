@@ -89,9 +89,7 @@ struct Stages {
     }
     ++stage_counts.by_exact;
     if (const auto s = integer2()) return *s;
-    const auto s = integer6();
-    assert(s && "coordinates must be admissible");
-    return *s;
+    return integer6().value();  // throws only if coordinates are not admissible
   }
 };
 
@@ -179,7 +177,7 @@ DoubleComparison compare_in_double(const LineThrough& edge, const PlaneThrough& 
       (std::abs(g.value) + g.error) * df.error + g.error * std::abs(df.value) +
       ((std::abs(f.value) + f.error) * dg.error + f.error * std::abs(dg.value));
   const double bound =
-      (inherited + 2 * kUnit * (f_dg + g_df)) * (1 + 16 * kUnit) + 0x1p-1060;
+      (inherited + 2 * kUnit * (f_dg + g_df)) * (1 + 16 * kUnit) + 0x1p-1000;
   return {sign, crosses && std::abs(numerator) > bound};
 }
 

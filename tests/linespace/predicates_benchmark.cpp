@@ -1,6 +1,7 @@
 // Cost and correctness of orient3d in every form and stage beside plain double arithmetic
 // and CGAL's Epick, on random, near-degenerate (rounded onto the plane), integer-grid and
-// many-decades input; and of compare_crossings.
+// many-decades input (half of the grid's quadruples are coplanar); and of
+// compare_crossings.  Compare ratios within one run.
 //
 // The counter `each` is the time of one predicate in seconds; `wrong` is how many of the
 // kCount signs differ from rational arithmetic, `undecided` how many a stage leaves open.
@@ -66,7 +67,10 @@ OnePlane one_plane(Input input) {
   const Quadruple q = quadruple(random, input);
   OnePlane out{{q.a, q.b, q.c}, {}};
   for (int i = 0; i < kCount; ++i) {
+    const bool coplanar = input == IntegerGrid && random.one_in(2);
+    const double s = random.integer(-2, 2), t = random.integer(-2, 2);
     out.points.push_back(on_plane(input) ? rounded_onto_plane(random, q.a, q.b, q.c)
+                         : coplanar      ? q.a + s * (q.b - q.a) + t * (q.c - q.a)
                                          : quadruple(random, input).d);
   }
   return out;
