@@ -1,22 +1,21 @@
 // Contacts of a line with faces, by exact signs.
 //
-// Notation.  The line L is a + t (b - a).  With integers (or doubles) A, alpha > 0, D such
-// that a = A / alpha and b - a = D / delta, every point p of the scene has
+// Notation.  The line L is a + t (b - a).  With integers (or doubles) A, alpha > 0, D
+// such that a = A / alpha and b - a = D / delta, every point p of the scene has
 //   v(p) = alpha p - A,   u(p) = (v_i D_k - v_k D_i, v_j D_k - v_k D_j),
 // where k is an axis with D_k != 0: u is, up to a linear map, the projection of p along L
 // onto the plane across L, with L at the origin.  For a point on L, u = 0 and
 // t = (delta / alpha) x with x = v_k / D_k.  All of it is ring arithmetic on doubles and
 // integers, done in CGAL::Mpzf; nothing is divided before a position is handed out.
 //
-// To first order a line near L is a point w(x) = w0 + w1 x of the plane across L that moves
-// at constant velocity, x being time:
+// To first order a line near L is a point w(x) = w0 + w1 x of the plane across L that
+// moves at constant velocity, x being time:
 // - a face that L crosses at x_i is an obstacle at that instant: a closed *sector* of the
 //   plane (all of it, a half-plane, or an angle at a corner);
-// - a face that contains a stretch [x_i, x_j] of L is a *barrier* meanwhile: one ray or two
+// - a face that contains a stretch [x_i, x_j] of L is a *barrier* meanwhile: one ray or
+// two
 //   opposite rays that w must not cross.
 // The contact blocks iff no w in general position avoids all of them.
-
-#include "linespace/contact_internal.h"
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/Mpzf.h>
@@ -30,6 +29,8 @@
 #include <limits>
 #include <numeric>
 
+#include "linespace/contact_internal.h"
+
 namespace sightline::internal {
 namespace {
 
@@ -38,8 +39,8 @@ using CGAL::Gmpq;
 
 constexpr double kUlp = std::numeric_limits<double>::epsilon() / 2;  // 2^-53
 // Added to bounds so that underflow cannot make them too small.  The smallest products
-// that matter are of degree 4 in coordinates of at least 2^-192 (differences of doubles of
-// at least 2^-140), that is 2^-768.
+// that matter are of degree 4 in coordinates of at least 2^-192 (differences of doubles
+// of at least 2^-140), that is 2^-768.
 constexpr double kUnderflow = 1e-300;
 
 // Mpzf's own conversion expects a positive number.
@@ -72,8 +73,8 @@ struct Ray {
   Ray operator-() const { return {-x, -y}; }
 };
 
-// Sign of p * q + r * s.  The rounded factors are within 2 ulp each, so the rounded sum is
-// within (4 + 1 + 1) ulp of the exact one plus higher orders; 8 ulp bounds it.
+// Sign of p * q + r * s.  The rounded factors are within 2 ulp each, so the rounded sum
+// is within (4 + 1 + 1) ulp of the exact one plus higher orders; 8 ulp bounds it.
 template <class Exact>
 int sum_sign(double p, double q, double r, double s, Exact&& exact) {
   const double pq = p * q, rs = r * s;
@@ -136,7 +137,8 @@ bool contains_after(const SectorAt& s, const Ray& r) {
   return cross(*s.start, r) > 0 && cross(r, *s.end) > 0;
 }
 
-// The union of the closed sectors is the whole plane: no sector's end is followed by a gap.
+// The union of the closed sectors is the whole plane: no sector's end is followed by a
+// gap.
 bool covers(std::span<const SectorAt> sectors) {
   if (sectors.size() < 2) return false;
   return std::all_of(sectors.begin(), sectors.end(), [&](const SectorAt& s) {
@@ -150,13 +152,13 @@ bool covers(std::span<const SectorAt> sectors) {
 //
 // The critical rays and their opposites cut the plane into 2m cells.  A straight motion
 // that misses the origin turns by less than a half turn in all, in one sense, so it is
-// described by the cell it is in at each instant; between two instants it crosses the rays
-// between the two cells, and no ray may be one of a barrier that is up.  Whether cells
-// c_0, ..., c_k are those of a motion is a linear program in (w(x_0), w(x_k)).
-// Only from a cell straight to the opposite one is the sense not given by the cells; then
-// all cells before are the first and all after the second, and both senses are possible:
-// in the coordinates of the cell's two sides both must change sign between the two
-// instants, in any order.
+// described by the cell it is in at each instant; between two instants it crosses the
+// rays between the two cells, and no ray may be one of a barrier that is up.  Whether
+// cells c_0, ..., c_k are those of a motion is a linear program in (w(x_0), w(x_k)). Only
+// from a cell straight to the opposite one is the sense not given by the cells; then all
+// cells before are the first and all after the second, and both senses are possible: in
+// the coordinates of the cell's two sides both must change sign between the two instants,
+// in any order.
 class MotionSearch {
  public:
   MotionSearch(std::vector<Rational> instants, std::span<const SectorAt> sectors,
@@ -198,7 +200,8 @@ class MotionSearch {
   [[nodiscard]] int half() const { return size() / 2; }
   [[nodiscard]] int wrapped(int c) const { return (c + 2 * size()) % size(); }
 
-  // rays_: all critical rays and their opposites by angle, cell c from ray c to ray c + 1.
+  // rays_: all critical rays and their opposites by angle, cell c from ray c to ray c
+  // + 1.
   void cut_into_cells(std::span<const SectorAt> sectors,
                       std::span<const BarrierDuring> barriers) {
     std::vector<Ray> upper;
@@ -254,8 +257,9 @@ class MotionSearch {
     return wrapped(cell - ray) < half();
   }
 
-  // Some motion is in these cells at the first instants.  For each line through the origin
-  // the side of w is the sign of an affine function of time, so that two instants say all.
+  // Some motion is in these cells at the first instants.  For each line through the
+  // origin the side of w is the sign of an affine function of time, so that two instants
+  // say all.
   [[nodiscard]] bool is_a_motion() const {
     const std::size_t count = cells_.size();
     if (count <= 2) return true;
@@ -296,8 +300,8 @@ class MotionSearch {
   std::vector<int> cells_;                 // at the first instants
 };
 
-// The rounded line for the first stage: |a - line a| <= a_error, direction scaled to about
-// 1 with an error of at most 2 ulp of its largest component.
+// The rounded line for the first stage: |a - line a| <= a_error, direction scaled to
+// about 1 with an error of at most 2 ulp of its largest component.
 struct RoundedLine {
   double a[3], d[3];
   double a_error;  // largest error of a coordinate of a
@@ -328,10 +332,10 @@ struct LineScan::Impl {
 
   std::vector<Corner> corners;
   mutable std::vector<Position> positions;
-  std::vector<Hit> hits;          // by position `from` once sorted
-  std::vector<int> first_hit;     // of each contact, and the end
-  std::vector<int> contact_to;    // position
-  // Scratch of the first stage, per corner of a piece.
+  std::vector<Hit> hits;        // by position `from` once sorted
+  std::vector<int> first_hit;   // of each contact, and the end
+  std::vector<int> contact_to;  // position
+  // Scratch of the first stage, per corner of a face.
   std::vector<double> u_scratch;
   std::vector<std::int8_t> signs;
 
@@ -343,15 +347,15 @@ struct LineScan::Impl {
   int corner(int point);
   int corner_position(int corner_id);
   int edge_position(int p, int q);
-  int plane_position(std::span<const int> piece);
+  int plane_position(std::span<const int> points);
   int add_position(Ring num, Ring den);
   int compare(int p, int q) const;
   const Rational& t(int position) const;
 
-  bool first_stage(std::span<const int> piece);
-  void meet(int face, std::span<const int> piece, int fan);
-  void meet_in_plane(int face, std::span<const int> piece, int fan,
-                     std::span<const int> ids);
+  bool first_stage(std::span<const int> points);
+  void meet(int face);
+  void meet_in_plane(int face, std::span<const int> ids);
+  [[nodiscard]] bool is_diagonal(int face, int side) const;
   void group();
   bool judge(int contact, const Rational* lo, const Rational* hi) const;
 };
@@ -425,8 +429,8 @@ void LineScan::Impl::round_line(const double* a, const double* d,
   }
 }
 
-// Fills `signs` with the sides on which L passes the piece's sides, 0 where this stage
-// cannot tell; false when L misses the piece for certain.
+// Fills `signs` with how L passes the face's sides, 0 where this stage cannot tell; false
+// when L misses the face for certain.
 //
 // Let V be the largest |v| (here alpha = 1), |d| <= 1 with error 2 ulp, e = 2^-53.
 //   v = fl(p - a):   error <= e V + a_error
@@ -435,8 +439,8 @@ void LineScan::Impl::round_line(const double* a, const double* d,
 //       du <= 10 e V + 2 a_error, taken as 12 e V + 3 a_error for the higher orders
 //   s = fl(u_p x u_q), with U the largest |u|: ds <= 4 U du + 2 du^2 + 4 e U^2,
 //       taken with 8 e U^2.
-bool LineScan::Impl::first_stage(std::span<const int> piece) {
-  const std::size_t n = piece.size();
+bool LineScan::Impl::first_stage(std::span<const int> points) {
+  const std::size_t n = points.size();
   signs.assign(n, 0);
   if (!rounded.usable) return true;
   u_scratch.resize(2 * n);
@@ -444,19 +448,18 @@ bool LineScan::Impl::first_stage(std::span<const int> piece) {
   const double di = rounded.d[i], dj = rounded.d[j], dk = rounded.d[k];
   double largest_v = 0, largest_u = 0;
   for (std::size_t c = 0; c < n; ++c) {
-    const Point& p = scene.point(piece[c]);
+    const Point& p = scene.point(points[c]);
     const double vi = p[i] - rounded.a[i], vj = p[j] - rounded.a[j],
                  vk = p[k] - rounded.a[k];
-    largest_v = std::max(
-        {largest_v, std::abs(vi), std::abs(vj), std::abs(vk)});
+    largest_v = std::max({largest_v, std::abs(vi), std::abs(vj), std::abs(vk)});
     const double ux = vi * dk - vk * di, uy = vj * dk - vk * dj;
     largest_u = std::max({largest_u, std::abs(ux), std::abs(uy)});
     u_scratch[2 * c] = ux;
     u_scratch[2 * c + 1] = uy;
   }
   const double du = 12 * kUlp * largest_v + 3 * rounded.a_error + kUnderflow;
-  const double bound = 4 * largest_u * du + 2 * du * du +
-                       8 * kUlp * largest_u * largest_u + kUnderflow;
+  const double bound =
+      4 * largest_u * du + 2 * du * du + 8 * kUlp * largest_u * largest_u + kUnderflow;
   bool left = false, right = false;
   for (std::size_t c = 0; c < n; ++c) {
     const double* p = &u_scratch[2 * c];
@@ -512,24 +515,17 @@ int LineScan::Impl::edge_position(int p, int q) {
                       Ring(Ring(up - uq) * direction[k]));
 }
 
-// Where L meets the plane of the piece: the origin's barycentric coordinates in the first
-// three corners whose projection is not flat.
-int LineScan::Impl::plane_position(std::span<const int> piece) {
+// Where L meets the plane of a face: the origin's barycentric coordinates in the first
+// three corners, which are never collinear.
+int LineScan::Impl::plane_position(std::span<const int> points) {
   const auto det = [](const Ray& p, const Ray& q) {
     return Ring(Ring(p.x * q.y) - Ring(p.y * q.x));
   };
-  const int c0 = corner(piece[0]);
-  for (std::size_t i = 1; i + 1 < piece.size(); ++i) {
-    const int c1 = corner(piece[i]), c2 = corner(piece[i + 1]);
-    const Corner &p = corners[c0], &q = corners[c1], &r = corners[c2];
-    const Ring wp = det(q.u, r.u), wq = det(r.u, p.u), wr = det(p.u, q.u);
-    const Ring sum = Ring(wp + wq) + wr;
-    if (sign_of(sum) == 0) continue;
-    return add_position(Ring(Ring(wp * p.v) + Ring(wq * q.v)) + Ring(wr * r.v),
-                        Ring(sum * direction[k]));
-  }
-  assert(false && "a crossed face has an area");
-  return -1;
+  const int c0 = corner(points[0]), c1 = corner(points[1]), c2 = corner(points[2]);
+  const Corner &p = corners[c0], &q = corners[c1], &r = corners[c2];
+  const Ring wp = det(q.u, r.u), wq = det(r.u, p.u), wr = det(p.u, q.u);
+  return add_position(Ring(Ring(wp * p.v) + Ring(wq * q.v)) + Ring(wr * r.v),
+                      Ring(Ring(Ring(wp + wq) + wr) * direction[k]));
 }
 
 int LineScan::Impl::compare(int p, int q) const {
@@ -537,8 +533,7 @@ int LineScan::Impl::compare(int p, int q) const {
   const Position &a = positions[p], &b = positions[q];
   // Each is within a relative 6 ulp.
   const double gap = a.approx - b.approx;
-  const double bound =
-      16 * kUlp * (std::abs(a.approx) + std::abs(b.approx)) + kUnderflow;
+  const double bound = 16 * kUlp * (std::abs(a.approx) + std::abs(b.approx)) + kUnderflow;
   if (bound < std::numeric_limits<double>::infinity()) {
     if (gap > bound) return 1;
     if (gap < -bound) return -1;
@@ -552,23 +547,23 @@ const Rational& LineScan::Impl::t(int position) const {
   return *p.t;
 }
 
-// Corners of a piece are numbered 0, 1, ..; `fan` says which corners of the face they are:
-// 0 for the whole face, i > 0 for the triangle of corners 0, i, i + 1.
-int face_corner(int corner, int fan) {
-  return fan == 0 || corner == 0 ? corner : fan + corner - 1;
+// A cut inside a polygon of the file: no feature, whether or not the polygon is flat.
+bool LineScan::Impl::is_diagonal(int face, int side) const {
+  const auto points = scene.face_points(face);
+  if (points.size() != 3) return false;  // only triangles are cut from polygons
+  const int p = points[side], q = points[(side + 1) % 3];
+  const auto near = scene.faces_at(p);
+  return std::any_of(near.begin(), near.end(), [&](int f) {
+    if (f == face || scene.faces()[f].source != scene.faces()[face].source) return false;
+    const auto other = scene.face_points(f);
+    return std::find(other.begin(), other.end(), q) != other.end();
+  });
 }
 
-// The side of the face that side `side` of the piece is, -1 for a diagonal.
-int face_side(int side, int fan, int face_size) {
-  if (fan == 0) return side;
-  if (side == 1) return fan;
-  if (side == 0) return fan == 1 ? 0 : -1;
-  return fan + 2 == face_size ? face_size - 1 : -1;
-}
-
-void LineScan::Impl::meet(int face, std::span<const int> piece, int fan) {
-  if (!first_stage(piece)) return;
-  const int n = static_cast<int>(piece.size());
+void LineScan::Impl::meet(int face) {
+  const auto points = scene.face_points(face);
+  if (!first_stage(points)) return;
+  const int n = static_cast<int>(points.size());
   const auto next = [n](int i) { return i + 1 == n ? 0 : i + 1; };
   const auto previous = [n](int i) { return i == 0 ? n - 1 : i - 1; };
 
@@ -578,7 +573,7 @@ void LineScan::Impl::meet(int face, std::span<const int> piece, int fan) {
   const std::span<int> ids(n > 8 ? many.data() : few.data(), n);
   std::fill(ids.begin(), ids.end(), -1);
   const auto id = [&](int i) {
-    if (ids[i] < 0) ids[i] = corner(piece[i]);
+    if (ids[i] < 0) ids[i] = corner(points[i]);
     return ids[i];
   };
   // Complete the signs; the certain ones stay.
@@ -593,14 +588,17 @@ void LineScan::Impl::meet(int face, std::span<const int> piece, int fan) {
     zero |= signs[i] == 0;
     if (left && right) return;
   }
-  Hit hit{.face = face, .kind = TouchKind::Interior, .obstacle = Obstacle::Full,
-          .from = -1, .to = -1};
+  Hit hit{.face = face,
+          .kind = TouchKind::Interior,
+          .obstacle = Obstacle::Full,
+          .from = -1,
+          .to = -1};
   if (!left && !right) {
     for (int i = 0; i < n; ++i) id(i);
-    return meet_in_plane(face, piece, fan, ids);
+    return meet_in_plane(face, ids);
   }
   if (!zero) {
-    hit.from = hit.to = plane_position(piece);
+    hit.from = hit.to = plane_position(points);
     hits.push_back(hit);
     return;
   }
@@ -608,7 +606,7 @@ void LineScan::Impl::meet(int face, std::span<const int> piece, int fan) {
     if (signs[i] != 0 || !corners[id(i)].u.zero()) continue;
     hit.kind = TouchKind::Corner;
     hit.obstacle = Obstacle::Sector;
-    hit.index = face_corner(i, fan);
+    hit.index = i;
     hit.from = hit.to = corner_position(id(i));
     hit.start = id(left ? next(i) : previous(i));
     hit.end = id(left ? previous(i) : next(i));
@@ -619,10 +617,10 @@ void LineScan::Impl::meet(int face, std::span<const int> piece, int fan) {
     if (signs[i] != 0) continue;
     const int p = id(i), q = id(next(i));
     if (dot(corners[p].u, corners[q].u) > 0) continue;  // on the same line, another side
-    hit.index = face_side(i, fan, static_cast<int>(scene.face_points(face).size()));
-    if (hit.index >= 0) {
+    if (!is_diagonal(face, i)) {
       hit.kind = TouchKind::Edge;
       hit.obstacle = Obstacle::Sector;
+      hit.index = i;
     }
     hit.from = hit.to = edge_position(p, q);
     hit.start = left ? q : p;
@@ -630,24 +628,22 @@ void LineScan::Impl::meet(int face, std::span<const int> piece, int fan) {
     hits.push_back(hit);
     return;
   }
-  assert(false && "L meets the boundary of the piece");
+  assert(false && "L meets the boundary of the face");
 }
 
-// L is in the plane of the piece.
-void LineScan::Impl::meet_in_plane(int face, std::span<const int> piece, int fan,
-                                   std::span<const int> ids) {
-  const int n = static_cast<int>(piece.size());
+// L is in the plane of the face, whose corners have these ids.
+void LineScan::Impl::meet_in_plane(int face, std::span<const int> ids) {
+  const int n = static_cast<int>(ids.size());
   int reference = -1;
   for (const int c : ids) {
     if (!corners[c].u.zero()) reference = c;
   }
-  if (reference < 0) return;  // a fan triangle without area, all of it on L
-  if (fan > 0 && collinear(scene.point(piece[0]), scene.point(piece[1]),
-                           scene.point(piece[2]))) {
-    return;
-  }
-  Hit hit{.face = face, .kind = TouchKind::EdgeOn, .obstacle = Obstacle::Barrier,
-          .from = -1, .to = -1};
+  assert(reference >= 0 && "a face has an area");
+  Hit hit{.face = face,
+          .kind = TouchKind::EdgeOn,
+          .obstacle = Obstacle::Barrier,
+          .from = -1,
+          .to = -1};
   const auto side = [&](int i) { return dot(corners[ids[i]].u, corners[reference].u); };
   const auto include = [&](int position) {
     if (hit.from < 0 || compare(position, hit.from) < 0) hit.from = position;
@@ -659,7 +655,7 @@ void LineScan::Impl::meet_in_plane(int face, std::span<const int> piece, int fan
     hit.plus |= s > 0;
     hit.minus |= s < 0;
     if (s == 0) {
-      hit.index = face_corner(i, fan);
+      hit.index = i;
       include(corner_position(ids[i]));
     } else if (s * side(j) < 0) {
       include(edge_position(ids[i], ids[j]));
@@ -677,17 +673,7 @@ void LineScan::Impl::meet_in_plane(int face, std::span<const int> piece, int fan
 }
 
 void LineScan::Impl::scan(std::span<const int> faces) {
-  for (const int f : faces) {
-    const auto points = scene.face_points(f);
-    if (points.size() == 3 || scene.facets()[scene.faces()[f].facet].planar) {
-      meet(f, points, 0);
-      continue;
-    }
-    for (int i = 1; i + 1 < static_cast<int>(points.size()); ++i) {
-      const std::array<int, 3> triangle = {points[0], points[i], points[i + 1]};
-      meet(f, triangle, i);
-    }
-  }
+  for (const int f : faces) meet(f);
   group();
 }
 
@@ -798,28 +784,13 @@ const Rational& LineScan::to(int contact) const {
 }
 
 std::vector<Touch> LineScan::touches(int contact) const {
-  // Of a folded face the strongest touch counts: a stretch, an inside point, a side.
-  const auto strength = [](TouchKind kind) {
-    switch (kind) {
-      case TouchKind::EdgeOn: return 0;
-      case TouchKind::Interior: return 1;
-      case TouchKind::Edge: return 2;
-      case TouchKind::Corner: break;
-    }
-    return 3;
-  };
   std::vector<Touch> out;
   for (int h = impl_->first_hit[contact]; h < impl_->first_hit[contact + 1]; ++h) {
     const Hit& hit = impl_->hits[h];
     out.push_back({hit.face, hit.kind, hit.index});
   }
-  std::sort(out.begin(), out.end(), [&](const Touch& p, const Touch& q) {
-    return std::tuple(p.face, strength(p.kind), p.index) <
-           std::tuple(q.face, strength(q.kind), q.index);
-  });
-  out.erase(std::unique(out.begin(), out.end(),
-                        [](const Touch& p, const Touch& q) { return p.face == q.face; }),
-            out.end());
+  std::sort(out.begin(), out.end(),
+            [](const Touch& p, const Touch& q) { return p.face < q.face; });
   return out;
 }
 
@@ -830,7 +801,6 @@ std::vector<int> LineScan::faces_at(int contact, const Rational& t) const {
     if (impl_->t(hit.from) <= t && t <= impl_->t(hit.to)) out.push_back(hit.face);
   }
   std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 

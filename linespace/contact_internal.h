@@ -5,9 +5,8 @@
 
 #pragma once
 
-#include <boost/multiprecision/gmp.hpp>
-
 #include <array>
+#include <boost/multiprecision/gmp.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,9 +17,8 @@
 namespace sightline::internal {
 
 /// Not CGAL::Exact_rational, which is another type where gmpxx is installed.
-using Rational =
-    boost::multiprecision::number<boost::multiprecision::gmp_rational,
-                                  boost::multiprecision::et_off>;
+using Rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
+                                               boost::multiprecision::et_off>;
 using ExactPoint = std::array<Rational, 3>;
 
 [[nodiscard]] ExactPoint exact_point(const Point& p);
@@ -33,7 +31,7 @@ struct ExactContact {
 };
 
 /// All contacts of the *whole line* through a and b with the given faces (any superset of
-/// those it meets in the range of interest, each face once), in order of `from`.  Touching
+/// those it meets in the range of interest, each face once), in order of `from`. Touching
 /// faces are grouped by geometry, whatever object they are of.  Requires a != b.
 /// Cost: about 20 ns for a face that a floating-point filter rejects, a microsecond of
 /// exact arithmetic for one that is met.

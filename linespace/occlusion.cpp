@@ -1,18 +1,18 @@
 // Segments against a scene: Embree finds candidates in float, bounded double arithmetic
 // certifies nearly all of them, and LineScan judges the few that touch.
 //
-// Two Embree scenes hold the faces, moved to the centre of the scene's box and scaled by a
-// power of two so that the box fits in [-1, 1]^3:
+// Two Embree scenes hold the faces, moved to the centre of the scene's box and scaled by
+// a power of two so that the box fits in [-1, 1]^3:
 // - triangles: every hit is a proposal, and becomes "blocked" only when certify() says
 //   that the segment crosses the inside of the face;
 // - boxes: one per face, as user geometry, widened by kInflation.  A segment that
 //   enters none of the boxes of the faces that certify() cannot exclude meets no face.
 //
-// Why kInflation suffices.  Ends of a ray are within 2 of the origin in each coordinate, so
-// its direction is within 4.  Rounding to float (u = 2^-24) moves a point of the ray by at
-// most 2u (origin) + 4u (direction).  A slab test computes (bound - origin) / direction,
-// whatever the order of its operations, with a few relative errors u of terms of
-// magnitude at most 4 / direction: as if the box had moved by at most 4 * 6u.  In all
+// Why kInflation suffices.  Ends of a ray are within 2 of the origin in each coordinate,
+// so its direction is within 4.  Rounding to float (u = 2^-24) moves a point of the ray
+// by at most 2u (origin) + 4u (direction).  A slab test computes (bound - origin) /
+// direction, whatever the order of its operations, with a few relative errors u of terms
+// of magnitude at most 4 / direction: as if the box had moved by at most 4 * 6u.  In all
 // under 32u = 2^-19; we widen by 2^-18.
 
 #include "linespace/occlusion.h"
@@ -47,16 +47,18 @@ constexpr double kFar = 0x1p20;
 // Where a line meets a polygon, as far as double arithmetic can tell.
 enum class Passage : std::uint8_t { Misses, Crosses, Doubtful };
 
-// A convex polygon, or a triangle of a folded one: `count` points from `first`.
+// A face, or a triangle of one with many corners: `count` points from `first`.
 struct Item {
   int face;
   std::uint32_t first, count;
 };
 
+constexpr std::size_t kMostCorners = 8;
+
 using Triple = std::array<double, 3>;
 
-// The line through a and b, prepared for certify().  Coordinates in the order i, j, k, with
-// k the axis of the largest |b - a|.
+// The line through a and b, prepared for certify().  Coordinates in the order i, j, k,
+// with k the axis of the largest |b - a|.
 struct Line {
   int axis[3];
   double a[3], b[3], d[3];
@@ -78,7 +80,7 @@ struct Line {
 };
 
 struct Crossing {
-  Passage line;   // by the whole line
+  Passage line;                // by the whole line
   int past_a = 0, past_b = 0;  // sign of t, of t - 1; 0 when uncertain; only for Crosses
   // Only for Crosses: t = (n / s) / d_k within these bounds.
   double n = 0, n_error = 0, s = 0, s_error = 0;
@@ -86,20 +88,18 @@ struct Crossing {
 
 // How the line passes the polygon.
 //
-// The formulas and bounds for u and s are those of contact.cpp, first_stage(), with exact a
-// and |d| up to D = |d_k|, where d is off by one rounding:
+// The formulas and bounds for u and s are those of contact.cpp, first_stage(), with exact
+// a and |d| up to D = |d_k|, where d is off by one rounding:
 //   v: e V,   u: du = 10 e V D (taken as 12),   s: ds = 4 U du + 2 du^2 + 8 e U^2.
 // The crossing is at barycentric weights w (three values s of pairs of corners 0, 1, 2):
 //   n = sum of w v_k over three corners: dn <= 3 V ds + 3 * 2 U^2 * e V (v's rounding)
 //       + 3 * 2 U^2 V * 3e (products and sums), taken as 3 V ds + 32 e U^2 V;
 //   sum of w: 3 ds + 2 * 6 U^2 e (sums).
-// n has the sign of t times that of the sum times that of d_k; with v from b instead of a,
-// t - 1.
+// n has the sign of t times that of the sum times that of d_k; with v from b instead of
+// a, t - 1.
 inline Crossing certify(const Line& line, const Triple* points, std::size_t count) {
-  constexpr std::size_t kMost = 8;
-  if (count > kMost) return {Passage::Doubtful};
   const int i = line.axis[0], j = line.axis[1], k = line.axis[2];
-  double ux[kMost], uy[kMost], vk[kMost];
+  double ux[kMostCorners], uy[kMostCorners], vk[kMostCorners];
   double v = 0, u = 0;
   for (std::size_t c = 0; c < count; ++c) {
     const double vi = points[c][i] - line.a[0], vj = points[c][j] - line.a[1];
@@ -112,7 +112,7 @@ inline Crossing certify(const Line& line, const Triple* points, std::size_t coun
   const double du = 12 * kUlp * v * std::abs(line.d[2]) + kUnderflow;
   const double ds = 4 * u * du + 2 * du * du + 8 * kUlp * u * u + kUnderflow;
   double least = kInfinity, most = -kInfinity;
-  double s[kMost];
+  double s[kMostCorners];
   for (std::size_t c = 0; c < count; ++c) {
     const std::size_t next = c + 1 == count ? 0 : c + 1;
     s[c] = ux[c] * uy[next] - uy[c] * ux[next];
@@ -186,9 +186,9 @@ struct OcclusionIndex::Impl {
     RTCIntersectContext context;  // first: Embree hands out its address
     const Impl* self;
     const Line* line;
-    bool crossed = false;         // certainly
-    int beyond = 0;               // nearest(): +1 past b, -1 before a
-    bool whole_line = false;      // faces(): whatever meets the line is wanted
+    bool crossed = false;     // certainly
+    int beyond = 0;           // nearest(): +1 past b, -1 before a
+    bool whole_line = false;  // faces(): whatever meets the line is wanted
     std::vector<int>* faces;
   };
 
@@ -249,8 +249,7 @@ void OcclusionIndex::Impl::add_items() {
   };
   for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
     const auto ids = scene.face_points(f);
-    if (ids.size() == 3 ||
-        (ids.size() <= 8 && scene.facets()[scene.faces()[f].facet].planar)) {
+    if (ids.size() <= kMostCorners) {
       add(f, {}, ids);
     } else {
       for (std::size_t i = 1; i + 1 < ids.size(); ++i) {
@@ -284,9 +283,8 @@ void OcclusionIndex::Impl::build_triangles() {
       vertices[3 * p + i] = static_cast<float>((points[p][i] - center[i]) * scale);
     }
   }
-  auto* indices = static_cast<unsigned*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                              3 * sizeof(unsigned), count));
+  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
+      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), count));
   item_of.reserve(count);
   for (std::uint32_t n = 0; n < items.size(); ++n) {
     for (std::uint32_t i = 1; i + 1 < items[n].count; ++i) {
@@ -362,12 +360,14 @@ void OcclusionIndex::Impl::build_boxes() {
     if (c.line == Passage::Misses) return;
     if (!query.whole_line) {
       switch (of_segment(c)) {
-        case Passage::Misses: return;
+        case Passage::Misses:
+          return;
         case Passage::Crosses:
           query.crossed = true;
           RTCRayN_tfar(args->ray, 1, 0) = -std::numeric_limits<float>::infinity();
           return;
-        case Passage::Doubtful: break;
+        case Passage::Doubtful:
+          break;
       }
     }
     query.faces->push_back(query.self->items[args->primID].face);
@@ -489,8 +489,8 @@ double OcclusionIndex::Impl::nearest(const Point& a, const Point& b, int beyond)
   const double none = beyond > 0 ? kInfinity : -kInfinity;
   const Line line(a, b);
   // The direction of the ray runs away from the segment.
-  const FloatRay r = beyond > 0 ? float_ray(a, b, 1, kInfinity)
-                                : float_ray(b, a, 1, kInfinity);
+  const FloatRay r =
+      beyond > 0 ? float_ray(a, b, 1, kInfinity) : float_ray(b, a, 1, kInfinity);
   if (r.where != FloatRay::Inside) return none;
   Query query;
   init(query, line);
@@ -527,7 +527,7 @@ Contact clipped(const LineScan& scan, int c, const Rational& lo, const Rational&
   const Rational& from = std::max(scan.from(c), lo);
   const Rational& to = std::min(scan.to(c), hi);
   const bool within = scan.to(c) > lo && scan.from(c) < hi;
-  return {CGAL::to_double(from), CGAL::to_double(to),
+  return {from.convert_to<double>(), to.convert_to<double>(),
           within ? scan.blocked_between(c, lo, hi) : scan.blocked(c), scan.touches(c)};
 }
 
@@ -604,8 +604,8 @@ End backward_end(const LineScan& scan) {
 }
 
 // A contact along all of the segment can let it grow on either side but not on both.  Of
-// the ends possible then, the pair farthest apart is taken, of equals the one that reaches
-// farther past b.
+// the ends possible then, the pair farthest apart is taken, of equals the one that
+// reaches farther past b.
 void reconcile(const LineScan& scan, int c, End& back, End& forth) {
   const auto limit = [&](const End& end, const Rational& outside) {
     return end.t && scan.from(c) <= *end.t && *end.t <= scan.to(c) ? *end.t : outside;
@@ -646,11 +646,11 @@ std::optional<FreeSegment> OcclusionIndex::maximal_free_segment(const Point& a,
   }
   FreeSegment out{-kInfinity, kInfinity, {}, {}, {}};
   if (back.t) {
-    out.from = CGAL::to_double(*back.t);
+    out.from = back.t->convert_to<double>();
     out.from_faces = scan.faces_at(back.contact, *back.t);
   }
   if (forth.t) {
-    out.to = CGAL::to_double(*forth.t);
+    out.to = forth.t->convert_to<double>();
     out.to_faces = scan.faces_at(forth.contact, *forth.t);
   }
   for (int c = 0; c < scan.size(); ++c) {
@@ -697,9 +697,9 @@ class TriangleShaft {
       size += std::max(std::abs(low), std::abs(high));
     }
     const Point e1 = corners_[1] - corners_[0], e2 = corners_[2] - corners_[0];
-    const double bound = 32 * kUlp * size * 2 * e1.cwiseAbs().maxCoeff() *
-                             e2.cwiseAbs().maxCoeff() +
-                         kUnderflow;
+    const double bound =
+        32 * kUlp * size * 2 * e1.cwiseAbs().maxCoeff() * e2.cwiseAbs().maxCoeff() +
+        kUnderflow;
     return least > bound || most < -bound;
   }
 
@@ -750,19 +750,19 @@ std::vector<int> OcclusionIndex::faces_meeting_triangle(const Point& a, const Po
     return CGAL::do_intersect(t, Kernel::Segment_3(low, high));
   };
   std::vector<int> out;
-  impl_->bvh.traverse(
-      [&](const Box& box) { return shaft.may_meet(box); },
-      [&](std::uint32_t f) {
-        const auto ids = scene.face_points(static_cast<int>(f));
-        for (std::size_t i = 1; i + 1 < ids.size(); ++i) {
-          const Kernel::Triangle_3 t(kernel_point(scene.point(ids[0])),
-                                     kernel_point(scene.point(ids[i])),
-                                     kernel_point(scene.point(ids[i + 1])));
-          if (t.is_degenerate() || !meets(t)) continue;
-          out.push_back(static_cast<int>(f));
-          break;
-        }
-      });
+  impl_->bvh.traverse([&](const Box& box) { return shaft.may_meet(box); },
+                      [&](std::uint32_t f) {
+                        const auto ids = scene.face_points(static_cast<int>(f));
+                        for (std::size_t i = 1; i + 1 < ids.size(); ++i) {
+                          const Kernel::Triangle_3 t(
+                              kernel_point(scene.point(ids[0])),
+                              kernel_point(scene.point(ids[i])),
+                              kernel_point(scene.point(ids[i + 1])));
+                          if (t.is_degenerate() || !meets(t)) continue;
+                          out.push_back(static_cast<int>(f));
+                          break;
+                        }
+                      });
   std::sort(out.begin(), out.end());
   return out;
 }
