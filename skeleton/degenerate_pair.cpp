@@ -1,9 +1,9 @@
-#include "skeleton/degenerate_pair_internal.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "skeleton/degenerate_pair_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -37,7 +37,8 @@ Rational exact_parameter(const Scene& scene, const ExactPoint& e0, const ExactPo
 }
 
 Point rounded(const ExactPoint& p) {
-  return {p[0].convert_to<double>(), p[1].convert_to<double>(), p[2].convert_to<double>()};
+  return {p[0].convert_to<double>(), p[1].convert_to<double>(),
+          p[2].convert_to<double>()};
 }
 
 // Faces whose boxes, grown by a little, come near the line through a and b: everything
@@ -50,8 +51,8 @@ std::vector<int> faces_near_line(const Generators& g, const Point& a, const Poin
     size = std::max({size, std::abs(bounds[0][i]), std::abs(bounds[1][i])});
   }
   const Point d = b - a;
-  const double grow = 1024 * std::numeric_limits<double>::epsilon() * size *
-                      (1 + size / d.norm());
+  const double grow =
+      1024 * std::numeric_limits<double>::epsilon() * size * (1 + size / d.norm());
   g.face_tree().traverse(
       [&](const Box& box) {
         double t0 = -std::numeric_limits<double>::infinity();
@@ -75,32 +76,6 @@ std::vector<int> faces_near_line(const Generators& g, const Point& a, const Poin
   return found;
 }
 
-// Faces that meet the double wedge of lines through v and the edge, out to the bounds.
-std::vector<int> faces_near_lines(const Generators& g, const Point& v, const Point& e0,
-                                  const Point& e1) {
-  const auto& bounds = g.scene().bounds();
-  const double size = (bounds[1] - bounds[0]).norm() + (e0 - v).norm() + (e1 - v).norm();
-  // Far enough that the triangle's base lies beyond everything.
-  const Point u = e0 - v;
-  const Point w = e1 - v;
-  const double height = u.cross(w).norm() / (w - u).norm();
-  const double reach = 4 * size / height;
-  const Shaft ahead(v, v + reach * u, v + reach * w);
-  const Shaft behind(v, v - reach * u, v - reach * w);
-  const double grow = 1024 * std::numeric_limits<double>::epsilon() * size * (1 + reach);
-  std::vector<int> found;
-  g.face_tree().traverse(
-      [&](Box box) {
-        for (int i = 0; i < 3; ++i) {
-          box.min[i] -= grow;
-          box.max[i] += grow;
-        }
-        return ahead.may_meet(box) || behind.may_meet(box);
-      },
-      [&](std::uint32_t f) { found.push_back(static_cast<int>(f)); });
-  return found;
-}
-
 struct Contacts {
   std::vector<std::vector<Generator>> groups;  ///< generators contact by contact
   bool free = true;
@@ -113,7 +88,8 @@ struct Contacts {
 };
 
 // What a contact is made of: corners, edges that are not flat, faces the line lies in.
-std::vector<Generator> generators_of(const Generators& g, const LineScan& scan, int contact) {
+std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
+                                     int contact) {
   const Scene& scene = g.scene();
   std::vector<Generator> found;
   std::vector<int> facets;
@@ -140,19 +116,13 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan, 
   }
   std::sort(facets.begin(), facets.end());
   facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
-  // The edge-on faces' corners are contacts too, though the touch says only EdgeOn.
-  for (const Touch& t : touches) {
-    if (t.kind != TouchKind::EdgeOn) continue;
-    for (const Rational* at : {&scan.from(contact), &scan.to(contact)}) {
-      (void)at;
-    }
-  }
   // A side through which the line leaves an edge-on face says nothing new.
   std::erase_if(found, [&](const Generator& x) {
     if (x.kind != GeneratorKind::Edge) return false;
     const auto& sides = scene.edges()[x.id].sides;
     return std::any_of(sides.begin(), sides.end(), [&](const Edge::Side& s) {
-      return std::binary_search(facets.begin(), facets.end(), scene.faces()[s.face].facet);
+      return std::binary_search(facets.begin(), facets.end(),
+                                scene.faces()[s.face].facet);
     });
   });
   for (const int f : facets) found.push_back({GeneratorKind::Face, f});
@@ -161,11 +131,29 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan, 
   return found;
 }
 
+// Whether the contact blocks the closed segment [0, 1] of the line.  What the contact
+// meets beyond the segment's ends does not count, what it meets at them does: the part
+// judged ends between there and the next instant outside.
+bool blocks_segment(const LineScan& scan, int contact) {
+  if (scan.from(contact) >= 0 && scan.to(contact) <= 1) return scan.blocked(contact);
+  Rational low = -1;
+  Rational high = 2;
+  for (const Rational& t : scan.instants(contact)) {
+    if (t < 0 && t > low) low = t;
+    if (t > 1 && t < high) high = t;
+  }
+  return scan.blocked_between(contact, low / 2, (high + 1) / 2);
+}
+
+bool meets_segment(const LineScan& scan, int contact) {
+  return scan.to(contact) >= 0 && scan.from(contact) <= 1;
+}
+
 Contacts contacts_between(const Generators& g, const LineScan& scan) {
   Contacts c;
   for (int i = 0; i < scan.size(); ++i) {
-    if (scan.to(i) < 0 || scan.from(i) > 1) continue;
-    c.free = c.free && !scan.blocked(i);
+    if (!meets_segment(scan, i)) continue;
+    c.free = c.free && !blocks_segment(scan, i);
     c.groups.push_back(generators_of(g, scan, i));
   }
   return c;
@@ -173,8 +161,7 @@ Contacts contacts_between(const Generators& g, const LineScan& scan) {
 
 bool is_free(const LineScan& scan) {
   for (int i = 0; i < scan.size(); ++i) {
-    if (scan.to(i) < 0 || scan.from(i) > 1) continue;
-    if (scan.blocked(i)) return false;
+    if (meets_segment(scan, i) && blocks_segment(scan, i)) return false;
   }
   return true;
 }
@@ -216,7 +203,8 @@ std::vector<std::int32_t> objects_of(const Generators& g, const Generator& x) {
 }
 
 // Two contacts on one and the same object.
-bool two_on_one_object(const Generators& g, const std::vector<std::vector<Generator>>& groups) {
+bool two_on_one_object(const Generators& g,
+                       const std::vector<std::vector<Generator>>& groups) {
   std::vector<std::int32_t> single;
   for (const auto& group : groups) {
     if (group.empty()) continue;
@@ -229,10 +217,7 @@ bool two_on_one_object(const Generators& g, const std::vector<std::vector<Genera
 }
 
 std::uint32_t add_node_at(const Generators& g, const Point& v, const ExactPoint& x,
-                          const LineScan& scan, const CutUnion& closed, const Cut& cut,
-                          VertexView& out) {
-  (void)closed;
-  (void)cut;
+                          const LineScan& scan, VertexView& out) {
   const Contacts c = contacts_between(g, scan);
   const auto kind = kind_of(c.groups);
   return out.add_node(kind.value_or(NodeKind::Degenerate), two_on_one_object(g, c.groups),
@@ -253,8 +238,8 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
     }
   }
   const auto add = [&](CutKind kind, int feature, std::array<std::int32_t, 3> points) {
-    const PlaneSide cutter({scene.point(points[0]), scene.point(points[1]),
-                            scene.point(points[2])});
+    const PlaneSide cutter(
+        {scene.point(points[0]), scene.point(points[1]), scene.point(points[2])});
     const Sign s0 = cutter(e0);
     const Sign s1 = cutter(e1);
     if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) return;
@@ -310,24 +295,11 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
   const LineThrough line{e0, e1};
   out.degenerate = true;
 
-  // A face in the plane can join contacts far beyond the triangle.
   std::vector<int> faces(meeting.begin(), meeting.end());
-  const bool coplanar = std::any_of(faces.begin(), faces.end(), [&](int f) {
-    const auto corners = scene.face_points(f);
-    return std::all_of(corners.begin(), corners.end(),
-                       [&](int p) { return plane(scene.point(p)) == Sign::Zero; });
-  });
-  if (coplanar) faces = faces_near_lines(g, v, e0, e1);
   faces.insert(faces.end(), star.faces.begin(), star.faces.end());
-  for (const int p : ridge.points) {
-    const int s = g.star_of_point(p);
-    if (s < 0) continue;
-    faces.insert(faces.end(), g.stars()[s].faces.begin(), g.stars()[s].faces.end());
-  }
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-
-  const auto cuts = critical_cuts(g, star, e0, e1, plane, faces);
+  const std::vector<Cut> cuts = critical_cuts(g, star, e0, e1, plane, faces);
   const ExactPoint from = exact_point(v);
   const ExactPoint x0 = exact_point(e0);
   const ExactPoint x1 = exact_point(e1);
@@ -369,7 +341,7 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
       for (const Cut& c : {*begin, end}) {
         const ExactPoint x = point_at(c);
         const LineScan scan(scene, faces, from, x);
-        arc.nodes[k++] = add_node_at(g, v, x, scan, closed, c, out);
+        arc.nodes[k++] = add_node_at(g, v, x, scan, out);
       }
       out.arcs.push_back(arc);
       out.intervals.push_back({*begin, end});

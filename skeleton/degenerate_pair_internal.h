@@ -1,7 +1,7 @@
 // Vertex and edge whose triangle holds something more than crossing faces: corners in its
-// plane, coplanar faces, touching solids, cuts that coincide.  Slow, general, exact: every
-// stretch between two critical positions, and every critical position, is judged by the
-// contacts of its line.
+// plane, coplanar faces, touching solids, cuts that coincide.  Slow, general, exact:
+// every stretch between two critical positions, and every critical position, is judged by
+// the contacts of its line.
 
 #pragma once
 
@@ -25,6 +25,7 @@ void add_degenerate_pair(const Generators& generators, const Star& star,
 /// Looks at every node of a view along its whole maximal free segment: those with more
 /// contacts than their kind has become Degenerate, with all generators listed from the
 /// end with the smaller one.
-void find_further_contacts(const Generators& generators, const Star& star, VertexView& view);
+void find_further_contacts(const Generators& generators, const Star& star,
+                           VertexView& view);
 
 }  // namespace sightline::internal

@@ -55,7 +55,8 @@ Selection selected_ridges(const Generators& g, const SkeletonRequest& request) {
   for (const auto& ridge : g.ridges()) {
     const auto& wanted = request.edge_objects;
     const int object = scene.edges()[ridge.edge].object;
-    bool asked = wanted.empty() || std::find(wanted.begin(), wanted.end(), object) != wanted.end();
+    bool asked =
+        wanted.empty() || std::find(wanted.begin(), wanted.end(), object) != wanted.end();
     if (request.region) {
       asked = asked && in_box(*request.region, scene.point(ridge.points[0])) &&
               in_box(*request.region, scene.point(ridge.points[1]));
@@ -66,7 +67,8 @@ Selection selected_ridges(const Generators& g, const SkeletonRequest& request) {
 }
 
 StageCounts operator-(const StageCounts& a, const StageCounts& b) {
-  return {a.by_double - b.by_double, a.by_interval - b.by_interval, a.by_exact - b.by_exact};
+  return {a.by_double - b.by_double, a.by_interval - b.by_interval,
+          a.by_exact - b.by_exact};
 }
 
 // Joins views, one node for each line: VV nodes are found from both ends, degenerate ones
@@ -147,7 +149,8 @@ Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
   oneapi::tbb::enumerable_thread_specific<std::unique_ptr<VertexViewer>> viewers;
   arena.execute([&] {
     oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<std::size_t>(0, stars.size(), 8), [&](const auto& range) {
+        oneapi::tbb::blocked_range<std::size_t>(0, stars.size(), 8),
+        [&](const auto& range) {
           const PrecisionScope scope(request.precision);
           const StageCounts at_first = thread_stage_counts();
           auto& viewer = viewers.local();
@@ -155,7 +158,8 @@ Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
           for (std::size_t i = range.begin(); i < range.end(); ++i) {
             if (stopped.load(std::memory_order_relaxed)) break;
             const std::chrono::duration<double> elapsed = Clock::now() - start;
-            if (request.stop.stop_requested() || elapsed.count() > request.budget_seconds) {
+            if (request.stop.stop_requested() ||
+                elapsed.count() > request.budget_seconds) {
               stopped = true;
               break;
             }

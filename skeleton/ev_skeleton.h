@@ -21,9 +21,9 @@
 namespace sightline {
 
 /// What an extremal stabbing line is held by, vertex first in the name; Degenerate lines
-/// have more contacts than four degrees of freedom need; Saddle is a line through a corner
-/// along which two of that corner's own edges line up (objects that are not convex);
-/// Pierce is where an edge enters a face (overlapping objects).
+/// have more contacts than four degrees of freedom need; Saddle is a line through a
+/// corner along which two of that corner's own edges line up (objects that are not
+/// convex); Pierce is where an edge enters a face (overlapping objects).
 enum class NodeKind : std::uint8_t { VV, VEE, EVE, FvE, Saddle, Pierce, Degenerate };
 
 enum class GeneratorKind : std::uint8_t { Vertex, Edge, Face };
@@ -55,8 +55,8 @@ struct SkeletonArc {
   std::int32_t vertex;  ///< point id
   std::int32_t edge;    ///< edge id
   bool self = false;    ///< vertex and edge are of one object
-  /// Parameters along the edge (0 at points[0], 1 at points[1]), rounded to double, of the
-  /// ends of the open interval, and the nodes there.
+  /// Parameters along the edge (0 at points[0], 1 at points[1]), rounded to double, of
+  /// the ends of the open interval, and the nodes there.
   std::array<double, 2> range;
   std::array<std::uint32_t, 2> nodes;
 };

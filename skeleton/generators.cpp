@@ -1,3 +1,4 @@
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
 
@@ -41,7 +42,8 @@ bool has_point(const Scene& scene, int face, int point) {
 bool same_direction(const Point& origin, const Point& p, const Point& q) {
   if (!collinear(origin, p, q)) return false;
   for (int i = 0; i < 3; ++i) {
-    if (p[i] != origin[i]) return (p[i] > origin[i]) == (q[i] > origin[i]) && q[i] != origin[i];
+    if (p[i] != origin[i])
+      return (p[i] > origin[i]) == (q[i] > origin[i]) && q[i] != origin[i];
   }
   return false;
 }
@@ -103,7 +105,8 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
     // Crosses the plane inside: within the closed polygon unless it passes some side on
     // the outside.
     for (std::size_t k = 0; k < n; ++k) {
-      const Sign s = orient3d(scene.point(corners[k]), scene.point(corners[(k + 1) % n]), e0, e1);
+      const Sign s =
+          orient3d(scene.point(corners[k]), scene.point(corners[(k + 1) % n]), e0, e1);
       if (s == Sign::Zero) continue;
       // Seen from the front a line going to the back passes inside on the left.
       const Sign inside = s0 == Sign::Positive ? Sign::Negative : Sign::Positive;
@@ -148,7 +151,9 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
 }  // namespace
 
 Generators::Generators(const Scene& scene, int /*threads*/)
-    : scene_(&scene), face_tree_(tree_over_faces(scene)), ridge_tree_(std::vector<Box>{}) {
+    : scene_(&scene),
+      face_tree_(tree_over_faces(scene)),
+      ridge_tree_(std::vector<Box>{}) {
   face_planes_.reserve(scene.faces().size());
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
     face_planes_.emplace_back(face_plane_through(scene, static_cast<int>(f)));
@@ -156,7 +161,8 @@ Generators::Generators(const Scene& scene, int /*threads*/)
   object_starts_.assign(scene.points().size() + 1, 0);
   for (std::size_t p = 0; p < scene.points().size(); ++p) {
     std::vector<std::int32_t> ids;
-    for (const int f : scene.faces_at(static_cast<int>(p))) ids.push_back(scene.faces()[f].object);
+    for (const int f : scene.faces_at(static_cast<int>(p)))
+      ids.push_back(scene.faces()[f].object);
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     object_ids_.insert(object_ids_.end(), ids.begin(), ids.end());
@@ -232,7 +238,8 @@ void Generators::find_ridges() {
             // Same half-plane or the opposite one: told apart by any plane through the
             // edge other than theirs.
             const InPlaneSide left_of(s, faces[a]);
-            ok = left_of(e0, e1, s.point(thirds[a])) == left_of(e0, e1, s.point(thirds[b]));
+            ok = left_of(e0, e1, s.point(thirds[a])) ==
+                 left_of(e0, e1, s.point(thirds[b]));
           } else {
             ok = t == wanted;
           }
@@ -245,7 +252,8 @@ void Generators::find_ridges() {
     const int b = extreme(Sign::Negative);
     if (a < 0 || b < 0) continue;
     // In a closed object the gap must be outside: fronts face it.
-    if (s.objects()[e.object].closed && thirds.size() > 1 && e.kind == EdgeKind::Reflex) continue;
+    if (s.objects()[e.object].closed && thirds.size() > 1 && e.kind == EdgeKind::Reflex)
+      continue;
     if (s.objects()[e.object].closed && e.kind == EdgeKind::NonManifold) {
       const auto fronts_gap = [&](int k, Sign wanted) {
         // Positive side of (e0, e1, third) is the wedge for a, the gap for b.
@@ -284,10 +292,9 @@ void Generators::find_ridges() {
     if (touched == EdgeTouch::ContainsInside) continue;
     ridge_of_edge_[i] = static_cast<int>(ridges_.size());
     // Behind both planes is the wedge.
-    ridges_.push_back({static_cast<std::int32_t>(i), e.points,
-                       PlaneSide({e1, e0, s.point(thirds[a])}),
-                       PlaneSide({e0, e1, s.point(thirds[b])}),
-                       touched == EdgeTouch::Touches});
+    ridges_.push_back(
+        {static_cast<std::int32_t>(i), e.points, PlaneSide({e1, e0, s.point(thirds[a])}),
+         PlaneSide({e0, e1, s.point(thirds[b])}), touched == EdgeTouch::Touches});
     boxes.push_back(box);
   }
   ridge_tree_ = Bvh(boxes);
@@ -307,7 +314,8 @@ void Generators::find_stars() {
     for (const int f : own) {
       const auto c = s.face_points(f);
       const std::size_t n = c.size();
-      const auto k = static_cast<std::size_t>(std::find(c.begin(), c.end(), p) - c.begin());
+      const auto k =
+          static_cast<std::size_t>(std::find(c.begin(), c.end(), p) - c.begin());
       const int next = c[(k + 1) % n];
       const int previous = c[(k + n - 1) % n];
       if (collinear(at, s.point(next), s.point(previous))) {
@@ -325,34 +333,36 @@ void Generators::find_stars() {
       star.facets.push_back(s.faces()[f].facet);
     }
     const Box box = box_between(at, at);
-    face_tree_.traverse(
-        [&](const Box& other) { return overlap(box, other); },
-        [&](std::uint32_t item) {
-          const int f = static_cast<int>(item);
-          if (has_point(s, f, p) || face_planes_[f](at) != Sign::Zero) return;
-          const PointInFace where = locate_in_plane(s, f, at);
-          if (where == PointInFace::Outside) return;
-          star.faces.push_back(f);
-          star.touched = true;
-          const auto c = s.face_points(f);
-          const std::size_t n = c.size();
-          const InPlaneSide left_of(s, f);
-          if (where == PointInFace::Inside) {
-            star.in_plane_only = true;
-            star.planes.push_back(f);
-          }
-          for (std::size_t k = 0; k < n; ++k) {
-            const Point& q = s.point(c[k]);
-            const Point& r = s.point(c[(k + 1) % n]);
-            if (left_of(q, r, at) == Sign::Zero) continue;
-            wedges.push_back({c[k], c[(k + 1) % n], s.faces()[f].facet});
-          }
-        });
+    face_tree_.traverse([&](const Box& other) { return overlap(box, other); },
+                        [&](std::uint32_t item) {
+                          const int f = static_cast<int>(item);
+                          if (has_point(s, f, p) || face_planes_[f](at) != Sign::Zero)
+                            return;
+                          const PointInFace where = locate_in_plane(s, f, at);
+                          if (where == PointInFace::Outside) return;
+                          star.faces.push_back(f);
+                          star.touched = true;
+                          const auto c = s.face_points(f);
+                          const std::size_t n = c.size();
+                          const InPlaneSide left_of(s, f);
+                          if (where == PointInFace::Inside) {
+                            star.in_plane_only = true;
+                            star.planes.push_back(f);
+                          }
+                          for (std::size_t k = 0; k < n; ++k) {
+                            const Point& q = s.point(c[k]);
+                            const Point& r = s.point(c[(k + 1) % n]);
+                            if (left_of(q, r, at) == Sign::Zero) continue;
+                            wedges.push_back({c[k], c[(k + 1) % n], s.faces()[f].facet});
+                          }
+                        });
     std::sort(star.facets.begin(), star.facets.end());
-    star.facets.erase(std::unique(star.facets.begin(), star.facets.end()), star.facets.end());
+    star.facets.erase(std::unique(star.facets.begin(), star.facets.end()),
+                      star.facets.end());
     const auto ray = [&](std::int32_t far) {
       for (std::size_t r = 0; r < star.rays.size(); ++r) {
-        if (star.rays[r] == far || same_direction(at, s.point(star.rays[r]), s.point(far))) {
+        if (star.rays[r] == far ||
+            same_direction(at, s.point(star.rays[r]), s.point(far))) {
           return static_cast<std::int32_t>(r);
         }
       }
@@ -363,7 +373,8 @@ void Generators::find_stars() {
 
     star.touched = star.touched || objects_at(p).size() > 1;
     bool convex = !star.touched && s.objects()[s.faces()[own[0]].object].closed;
-    for (const int e : s.edges_at(p)) convex = convex && s.edges()[e].kind == EdgeKind::Convex;
+    for (const int e : s.edges_at(p))
+      convex = convex && s.edges()[e].kind == EdgeKind::Convex;
     // Locally convex along every edge and one fan: check it is one cone.
     for (std::size_t k = 0; k < own.size() && convex; ++k) {
       for (const auto& w : wedges) {
@@ -412,7 +423,8 @@ void Generators::find_inside() {
       if (inside_[i]) continue;
       const Point& p = s.point(stars_[i].point);
       bool in_box = true;
-      for (int k = 0; k < 3; ++k) in_box = in_box && p[k] > box.min[k] && p[k] < box.max[k];
+      for (int k = 0; k < 3; ++k)
+        in_box = in_box && p[k] > box.min[k] && p[k] < box.max[k];
       if (!in_box) continue;
       if (convex_[o]) {
         inside_[i] = std::all_of(object.faces.begin(), object.faces.end(), [&](int f) {
@@ -422,13 +434,14 @@ void Generators::find_inside() {
         inside_[i] = 0;  // filled by parity below
         // Crossings with a segment that leaves the box; a degenerate one is replaced.
         const auto at = objects_at(stars_[i].point);
-        if (std::find(at.begin(), at.end(), static_cast<std::int32_t>(o)) != at.end()) continue;
+        if (std::find(at.begin(), at.end(), static_cast<std::int32_t>(o)) != at.end())
+          continue;
         const Point size{box.max[0] - box.min[0], box.max[1] - box.min[1],
                          box.max[2] - box.min[2]};
         for (int attempt = 1; attempt <= 16; ++attempt) {
-          const Point far = p + Point{size[0] * (2 + 0.37 * attempt),
-                                      size[1] * (1.1 + 0.61 * attempt),
-                                      size[2] * (3 - 0.13 * attempt) * (attempt % 2 ? 1 : -1)};
+          const Point far =
+              p + Point{size[0] * (2 + 0.37 * attempt), size[1] * (1.1 + 0.61 * attempt),
+                        size[2] * (3 - 0.13 * attempt) * (attempt % 2 ? 1 : -1)};
           int winding = 0;
           bool degenerate = false;
           for (const int f : object.faces) {
@@ -439,7 +452,8 @@ void Generators::find_inside() {
             bool hit = true;
             bool edge = false;
             for (std::size_t k = 0; k < c.size() && hit; ++k) {
-              const Sign t = orient3d(s.point(c[k]), s.point(c[(k + 1) % c.size()]), p, far);
+              const Sign t =
+                  orient3d(s.point(c[k]), s.point(c[(k + 1) % c.size()]), p, far);
               edge |= t == Sign::Zero;
               const Sign inward = (s0 == Sign::Positive || s1 == Sign::Negative)
                                       ? Sign::Negative

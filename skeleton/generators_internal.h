@@ -99,7 +99,8 @@ class Generators {
 };
 
 /// The three points that give a face its plane.
-[[nodiscard]] inline std::array<std::int32_t, 3> plane_points(const Scene& scene, int face) {
+[[nodiscard]] inline std::array<std::int32_t, 3> plane_points(const Scene& scene,
+                                                              int face) {
   const auto p = scene.face_points(face);
   return {p[0], p[1], p[2]};
 }

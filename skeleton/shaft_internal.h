@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -26,8 +27,7 @@ inline CentredBox centred(const Box& box) {
   for (int i = 0; i < 3; ++i) {
     c.centre[i] = 0.5 * (box.min[i] + box.max[i]);
     // The subtractions below are each rounded once: 4 units cover both.
-    const double h =
-        std::fmax(box.max[i] - c.centre[i], c.centre[i] - box.min[i]);
+    const double h = std::fmax(box.max[i] - c.centre[i], c.centre[i] - box.min[i]);
     c.half[i] = h * (1 + 4 * kUnitRoundoff);
   }
   return c;
@@ -38,7 +38,8 @@ inline CentredBox centred(const Box& box) {
 ///
 /// The normal is a difference of products known to within `slack` a component, so that
 /// over a box with centre c and half sizes h, both relative to the origin,
-///   |f(x) - (normal . c + offset)| <= sum |normal_i| h_i + slack_i (|c_i| + h_i) + error.
+///   |f(x) - (normal . c + offset)| <= sum |normal_i| h_i + slack_i (|c_i| + h_i) +
+///   error.
 struct BoundedPlane {
   std::array<double, 3> normal;
   std::array<double, 3> slack;

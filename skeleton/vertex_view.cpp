@@ -1,11 +1,10 @@
-#include "skeleton/vertex_view_internal.h"
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <numeric>
 
 #include "skeleton/degenerate_pair_internal.h"
+#include "skeleton/vertex_view_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -20,7 +19,9 @@ std::array<double, 3> relative(const Point& p, const Point& origin) {
 Sign sign_of(const BoundedValue& value, const PlaneSide& plane, const Point& p) {
   if (std::abs(value.value) > value.error || value.error == 0) {
     ++thread_stage_counts().by_double;
-    return value.value > 0 ? Sign::Positive : value.value < 0 ? Sign::Negative : Sign::Zero;
+    return value.value > 0   ? Sign::Positive
+           : value.value < 0 ? Sign::Negative
+                             : Sign::Zero;
   }
   return plane(p);
 }
@@ -205,8 +206,12 @@ bool VertexViewer::hidden(const std::array<double, 3>& centre,
                           const std::array<double, 3>& half) {
   // Lines into the viewpoint's own solid, forwards or backwards, support nothing.
   if (star_->convex) {
-    const auto inside = [&](const BoundedPlane& p) { return p.negative_on(centre, half); };
-    const auto beyond = [&](const BoundedPlane& p) { return p.positive_on(centre, half); };
+    const auto inside = [&](const BoundedPlane& p) {
+      return p.negative_on(centre, half);
+    };
+    const auto beyond = [&](const BoundedPlane& p) {
+      return p.positive_on(centre, half);
+    };
     if (std::all_of(star_planes_.begin(), star_planes_.end(), inside)) return true;
     if (std::all_of(star_planes_.begin(), star_planes_.end(), beyond)) return true;
   }
@@ -287,7 +292,8 @@ bool VertexViewer::hidden_behind_proposal(const Point& target,
   const Shadow* shadow = shadow_of(object);
   if (shadow == nullptr) return false;
   const auto index = shadow_index_[object];
-  if (known && std::find(recent_.begin(), recent_.end(), index) != recent_.end()) return false;
+  if (known && std::find(recent_.begin(), recent_.end(), index) != recent_.end())
+    return false;
   constexpr std::size_t kRecent = 12;
   if (recent_.size() >= kRecent) recent_.pop_back();
   recent_.insert(recent_.begin(), index);
@@ -300,6 +306,7 @@ VertexView VertexViewer::view(int star) {
   if (g_.inside_solid(star)) return out;
   visit_ridges(out);
   add_line_ups(out);
+  if (out.degenerate) find_further_contacts(g_, *star_, out);
   return out;
 }
 
@@ -370,13 +377,8 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   if (g_.convex_solid(edge.object) && contains(own_objects_, edge.object)) return;
   if (collinear(at_, e0, e1)) return;  // along the edge: no family of lines
 
-  Pair pair{ridge,
-            &r,
-            &edge,
-            e0,
-            e1,
-            PlaneSide({at_, e0, e1}),
-            CutUnion(scene_, {e0, e1})};
+  Pair pair{
+      ridge, &r, &edge, e0, e1, PlaneSide({at_, e0, e1}), CutUnion(scene_, {e0, e1})};
   for (const Edge::Side& side : edge.sides) {
     pair.edge_facets.push_back(scene_.faces()[side.face].facet);
   }
@@ -472,7 +474,12 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
   }
   if (stray) {
     pair.degenerate = true;
-    return;
+    if (front == back || !stands_on_ground(pair, face, {signs, n})) return;
+    // What stands on the plane hides like what crosses it.
+    for (std::size_t k = 0; k < n; ++k) {
+      if (signs[k] == Sign::Zero) signs[k] = front ? Sign::Negative : Sign::Positive;
+    }
+    front = back = true;
   }
   if (!front || !back) return;
   const PlaneSide& face_plane = g_.face_plane(face);
@@ -519,11 +526,14 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
     const BoundedValue x1 = side_plane.value(pair.e1);
     const Sign s0 = sign_of(x0, side_plane, pair.e0);
     const Sign s1 = sign_of(x1, side_plane, pair.e1);
-    if (s0 == Sign::Zero || s1 == Sign::Zero) pair.degenerate = true;
+    if (s0 == Sign::Zero || s1 == Sign::Zero) {
+      pair.degenerate = true;
+    }
     // Negative s0: to the left of the ray to e0; positive s1: to the right of that to e1.
     if (s0 == Sign::Negative && s1 == Sign::Positive) {
       const int edge = scene_.edge_of_side(face, static_cast<int>(k));
-      Cut cut = make_cut(CutKind::Side, edge, {point_, std::min(p, q), std::max(p, q)}, x0, x1);
+      Cut cut =
+          make_cut(CutKind::Side, edge, {point_, std::min(p, q), std::max(p, q)}, x0, x1);
       if (edge >= 0) {
         // A side of a face at the viewpoint: its plane is that face's.
         for (const Edge::Side& s : scene_.edges()[edge].sides) {
@@ -567,6 +577,35 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
   }
 }
 
+// For a viewpoint inside a facet of a convex solid, and the lines in that facet's plane:
+// the solid blocks whatever dips below, so a face that stands on the facet with one of
+// its sides blocks all lines that meet this side.
+bool VertexViewer::stands_on_ground(const Pair& pair, int face,
+                                    std::span<const Sign> signs) const {
+  if (!star_->in_plane_only) return false;
+  for (const int ground : star_->planes) {
+    const int facet = scene_.faces()[ground].facet;
+    if (!g_.convex_solid(scene_.facets()[facet].object)) continue;
+    const PlaneSide& plane = g_.face_plane(ground);
+    if (plane(pair.e0) != Sign::Zero || plane(pair.e1) != Sign::Zero) continue;
+    const auto corners = scene_.face_points(face);
+    bool stands = true;
+    for (std::size_t k = 0; k < signs.size() && stands; ++k) {
+      const Point& p = scene_.point(corners[k]);
+      if (signs[k] != Sign::Zero) {
+        stands = plane(p) == Sign::Positive;
+        continue;
+      }
+      const auto& pieces = scene_.facets()[facet].faces;
+      stands = std::any_of(pieces.begin(), pieces.end(), [&](int f) {
+        return locate_in_plane(scene_, f, p) != PointInFace::Outside;
+      });
+    }
+    if (stands) return true;
+  }
+  return false;
+}
+
 // d lies inside the cone iff it is behind all planes at once: an interval of the edge;
 // -d likewise in front of all.
 void VertexViewer::add_unsupported_convex(Pair& pair) {
@@ -580,7 +619,9 @@ void VertexViewer::add_unsupported_convex(Pair& pair) {
       const BoundedValue x1 = plane.value(pair.e1);
       const Sign s0 = sign_of(x0, plane, pair.e0);
       const Sign s1 = sign_of(x1, plane, pair.e1);
-      if (s0 == Sign::Zero || s1 == Sign::Zero) pair.degenerate = true;
+      if (s0 == Sign::Zero || s1 == Sign::Zero) {
+        pair.degenerate = true;
+      }
       if (s0 == inside && s1 == inside) continue;
       if (s0 != inside && s1 != inside) {
         empty = true;
@@ -650,8 +691,8 @@ void VertexViewer::add_unsupported_general(Pair& pair) {
       for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t j = i + 1; j < n; ++j) {
           const Turn& t = turns[i * n + j];
-          const bool passed = t.before != t.after &&
-                              compare(scene_, line, t.cut, from) != Sign::Positive;
+          const bool passed =
+              t.before != t.after && compare(scene_, line, t.cut, from) != Sign::Positive;
           const Sign s = passed ? t.after : t.before;
           turn[i * n + j] = static_cast<std::int8_t>(s);
           turn[j * n + i] = static_cast<std::int8_t>(-s);
@@ -707,8 +748,8 @@ std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
     const StarContact there = star_contact(scene_, star, at_);
     const StarContact here = star_contact(scene_, *star_, scene_.point(far));
     const auto objects = g_.objects_at(far);
-    const bool self = own_objects_.size() == 1 && objects.size() == 1 &&
-                      own_objects_[0] == objects[0];
+    const bool self =
+        own_objects_.size() == 1 && objects.size() == 1 && own_objects_[0] == objects[0];
     const Generator generators[] = {vertex, {GeneratorKind::Vertex, far}};
     const bool degenerate =
         there == StarContact::Degenerate || here == StarContact::Degenerate;
@@ -772,8 +813,9 @@ void VertexViewer::add_line_ups(VertexView& out) {
                                       {GeneratorKind::Vertex, point_},
                                       {GeneratorKind::Edge, b.edge}};
       const bool self = a.self || b.self || e.object == f.object;
-      out.add_node(NodeKind::EVE, self, false, generators,
-                   {e0 + on_e.parameter() * (e1 - e0), f0 + on_f.parameter() * (f1 - f0)});
+      out.add_node(
+          NodeKind::EVE, self, false, generators,
+          {e0 + on_e.parameter() * (e1 - e0), f0 + on_f.parameter() * (f1 - f0)});
     }
   }
 }

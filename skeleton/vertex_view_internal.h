@@ -1,5 +1,5 @@
-// What one vertex sees: the EV arcs of a viewpoint that is a corner of the scene, with the
-// extremal stabbing lines at their ends.
+// What one vertex sees: the EV arcs of a viewpoint that is a corner of the scene, with
+// the extremal stabbing lines at their ends.
 
 #pragma once
 
@@ -40,7 +40,8 @@ enum class StarContact : std::uint8_t { Grazes, Blocked, Degenerate };
 
 /// The contact at the star's point of the line through it and x; Degenerate when the line
 /// lies in the plane of a face there or along an edge.
-[[nodiscard]] StarContact star_contact(const Scene& scene, const Star& star, const Point& x);
+[[nodiscard]] StarContact star_contact(const Scene& scene, const Star& star,
+                                       const Point& x);
 
 /// Computes views, one at a time; keeps scratch, so one per thread.
 class VertexViewer {
@@ -63,6 +64,8 @@ class VertexViewer {
   void visit_ridges(VertexView& out);
   void view_ridge(int ridge, VertexView& out);
   void add_blocker(Pair& pair, int face);
+  [[nodiscard]] bool stands_on_ground(const Pair& pair, int face,
+                                      std::span<const Sign> signs) const;
   void add_unsupported_convex(Pair& pair);
   void add_unsupported_general(Pair& pair);
   [[nodiscard]] bool ends_are_simple(const Pair& pair,
@@ -88,7 +91,7 @@ class VertexViewer {
   std::vector<Shadow> shadows_;             // of this viewpoint
   std::vector<std::int32_t> shadow_index_;  // by object; valid where shadow_stamp_ is
   std::vector<std::uint32_t> shadow_stamp_;
-  std::vector<std::int32_t> recent_;        // positions in shadows_, best first
+  std::vector<std::int32_t> recent_;  // positions in shadows_, best first
   std::vector<BoundedPlane> star_planes_;
 };
 
