@@ -17,17 +17,18 @@ int main(int argc, char** argv) {
   // The whole exact answer, on all cores; the request may also name a region, a budget, ...
   const sightline::Skeleton skeleton = sightline::build_ev_skeleton(scene);
 
-  std::map<sightline::NodeKind, int> nodes;
-  for (const auto& node : skeleton.nodes) ++nodes[node.kind];
+  // Nodes at which the line ends on a corner, rather than grazes it, are told apart.
+  using Kind = sightline::NodeKind;
+  std::map<Kind, int> grazing;
+  int ending = 0;
+  for (const auto& node : skeleton.nodes) {
+    node.end ? ++ending : ++grazing[node.kind];
+  }
   std::printf("%s: %zu faces, %zu EV arcs\n", file.c_str(), scene.faces().size(),
               skeleton.arcs.size());
-  for (const auto& [kind, label] :
-       std::map<sightline::NodeKind, const char*>{{sightline::NodeKind::VV, "VV"},
-                                                  {sightline::NodeKind::VEE, "VEE"},
-                                                  {sightline::NodeKind::EVE, "EVE"},
-                                                  {sightline::NodeKind::FvE, "FvE"}}) {
-    std::printf("%4s %d\n", label, nodes[kind]);
-  }
+  std::printf("VV %d, VEE %d, EVE %d, FvE %d, degenerate %d, ending %d\n",
+              grazing[Kind::VV], grazing[Kind::VEE], grazing[Kind::EVE],
+              grazing[Kind::FvE], grazing[Kind::Degenerate], ending);
 
   // Every arc knows its generators: here a corner and an edge of which it sees a part.
   if (skeleton.arcs.empty()) return 1;
