@@ -1,20 +1,22 @@
 // Where the view of a scene changes: its EV skeleton, counted by kind, and one arc
 // with its corner and edge.  One task, top to bottom.
 
+#include "skeleton/ev_skeleton.h"
+
 #include <cstdio>
 #include <map>
 #include <string>
 
 #include "linespace/mesh_io.h"
 #include "linespace/scene.h"
-#include "skeleton/ev_skeleton.h"
 
 int main(int argc, char** argv) {
   // A file becomes a scene once, validated; from then on it is immutable.
   const std::string file = argc > 1 ? argv[1] : "scenes/room.obj";
   const sightline::Scene scene(sightline::read_mesh(file));
 
-  // The whole exact answer, on all cores; the request may also name a region, a budget, ...
+  // The whole exact answer, on all cores; the request may also name a region, a budget,
+  // ...
   const sightline::Skeleton skeleton = sightline::build_ev_skeleton(scene);
 
   // Nodes at which the line ends on a corner, rather than grazes it, are told apart.
@@ -34,7 +36,7 @@ int main(int argc, char** argv) {
   if (skeleton.arcs.empty()) return 1;
   const auto& arc = skeleton.arcs.front();
   const auto& vertex = scene.point(arc.vertex);
-  std::printf("the corner (%g %g %g) sees edge %d from %g to %g\n", vertex.x(), vertex.y(),
-              vertex.z(), arc.edge, arc.range[0], arc.range[1]);
+  std::printf("the corner (%g %g %g) sees edge %d from %g to %g\n", vertex.x(),
+              vertex.y(), vertex.z(), arc.edge, arc.range[0], arc.range[1]);
   return skeleton.complete ? 0 : 1;
 }

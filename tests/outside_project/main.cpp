@@ -1,14 +1,14 @@
 // Uses each installed module once: a scene of two tetrahedra, what blocks a line through
 // one, and how many critical line sets the pair has.
 
-#include <cstdio>
-#include <utility>
-#include <vector>
-
 #include <linespace/occlusion.h>
 #include <linespace/predicates.h>
 #include <linespace/scene.h>
 #include <skeleton/ev_skeleton.h>
+
+#include <cstdio>
+#include <utility>
+#include <vector>
 
 int main() {
   using sightline::Point;
@@ -18,9 +18,8 @@ int main() {
     const int first = static_cast<int>(soup.vertices.size());
     soup.vertices.insert(soup.vertices.end(), {Point(x, 0, 0), Point(x + 1, 0.1, 0.2),
                                                Point(x, 1, 0.1), Point(x + 0.2, 0.3, 1)});
-    for (const std::vector<int>& face :
-         {std::vector{0, 2, 1}, std::vector{0, 1, 3}, std::vector{1, 2, 3},
-          std::vector{2, 0, 3}}) {
+    for (const std::vector<int>& face : {std::vector{0, 2, 1}, std::vector{0, 1, 3},
+                                         std::vector{1, 2, 3}, std::vector{2, 0, 3}}) {
       soup.polygons.push_back({first + face[0], first + face[1], first + face[2]});
     }
   }

@@ -1,8 +1,8 @@
 // Uses the installed viewers once: the colour of an event is that of the pictures.
 
-#include <cstdio>
-
 #include <viewers/palette.h>
+
+#include <cstdio>
 
 int main() {
   const auto colour = sightline::viewers::hex(sightline::viewers::colour_of_kind("EV"));
