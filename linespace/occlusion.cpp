@@ -1,12 +1,12 @@
 // Segments against a scene: Embree finds candidates in float, bounded double arithmetic
 // certifies nearly all of them, and LineScan judges the few that touch.
 //
-// Two Embree scenes hold the faces, moved to the centre of the scene's box and scaled by
-// a power of two so that the box fits in [-1, 1]^3:
-// - triangles: every hit is a proposal, and becomes "blocked" only when certify() says
-//   that the segment crosses the inside of the face;
-// - boxes: one per face, as user geometry, widened by kInflation.  A segment that
-//   enters none of the boxes of the faces that certify() cannot exclude meets no face.
+// Embree holds a box per face, as user geometry, moved to the centre of the scene's box
+// and scaled by a power of two so that the latter fits in [-1, 1]^3, then widened by
+// kInflation.  A segment that enters the box of no face but those it certainly misses
+// meets no face.  This serves both answers in one traversal; going through Embree's own
+// triangles first, whose hits would only be proposals, was slower even where they were
+// confirmed.
 //
 // Why kInflation suffices.  Ends of a ray are within 2 of the origin in each coordinate,
 // so its direction is within 4.  Rounding to float (u = 2^-24) moves a point of the ray
@@ -47,35 +47,40 @@ constexpr double kFar = 0x1p20;
 // Where a line meets a polygon, as far as double arithmetic can tell.
 enum class Passage : std::uint8_t { Misses, Crosses, Doubtful };
 
-// A face, or a triangle of one with many corners: `count` points from `first`.
+// A face, or a piece of one with many corners.
+constexpr int kMostCorners = 4;
 struct Item {
+  double p[kMostCorners][3];
   int face;
-  std::uint32_t first, count;
+  int count;
 };
 
-constexpr std::size_t kMostCorners = 8;
-
-using Triple = std::array<double, 3>;
-
-// The line through a and b, prepared for certify().  Coordinates in the order i, j, k,
+// The line through a and b, prepared for passage().  Coordinates in the order i, j, k,
 // with k the axis of the largest |b - a|.
 struct Line {
   int axis[3];
   double a[3], b[3], d[3];
+  double s_bound, n_bound;  // see passage()
 
-  Line(const Point& p, const Point& q) {
+  // low, high: the box of all points that will be asked about.
+  Line(const Point& p, const Point& q, const std::array<Point, 2>& bounds) {
     const Point e = q - p;
     int k = 0;
     if (std::abs(e[1]) > std::abs(e[k])) k = 1;
     if (std::abs(e[2]) > std::abs(e[k])) k = 2;
-    axis[0] = (k + 1) % 3;
-    axis[1] = (k + 2) % 3;
+    axis[0] = k == 2 ? 0 : k + 1;
+    axis[1] = k == 0 ? 2 : k - 1;
     axis[2] = k;
+    const double size = std::abs(e[k]);
+    double v = size;
     for (int i = 0; i < 3; ++i) {
       a[i] = p[axis[i]];
       b[i] = q[axis[i]];
       d[i] = e[axis[i]];
+      v = std::max(v, std::max(bounds[1][i] - p[i], p[i] - bounds[0][i]));
     }
+    s_bound = 130 * kUlp * (v * v) * (size * size) + kUnderflow;
+    n_bound = 1100 * kUlp * (v * v) * (size * size) * v + kUnderflow;
   }
 };
 
@@ -97,11 +102,13 @@ struct Crossing {
 //   sum of w: 3 ds + 2 * 6 U^2 e (sums).
 // n has the sign of t times that of the sum times that of d_k; with v from b instead of
 // a, t - 1.
-inline Crossing certify(const Line& line, const Triple* points, std::size_t count) {
+Crossing certify(const Line& line, const Item& item) {
+  const auto& points = item.p;
+  const int count = item.count;
   const int i = line.axis[0], j = line.axis[1], k = line.axis[2];
   double ux[kMostCorners], uy[kMostCorners], vk[kMostCorners];
   double v = 0, u = 0;
-  for (std::size_t c = 0; c < count; ++c) {
+  for (int c = 0; c < count; ++c) {
     const double vi = points[c][i] - line.a[0], vj = points[c][j] - line.a[1];
     vk[c] = points[c][k] - line.a[2];
     ux[c] = vi * line.d[2] - vk[c] * line.d[0];
@@ -113,8 +120,8 @@ inline Crossing certify(const Line& line, const Triple* points, std::size_t coun
   const double ds = 4 * u * du + 2 * du * du + 8 * kUlp * u * u + kUnderflow;
   double least = kInfinity, most = -kInfinity;
   double s[kMostCorners];
-  for (std::size_t c = 0; c < count; ++c) {
-    const std::size_t next = c + 1 == count ? 0 : c + 1;
+  for (int c = 0; c < count; ++c) {
+    const int next = c + 1 == count ? 0 : c + 1;
     s[c] = ux[c] * uy[next] - uy[c] * ux[next];
     least = std::min(least, s[c]);
     most = std::max(most, s[c]);
@@ -154,10 +161,55 @@ Passage of_segment(const Crossing& c) {
   return Passage::Doubtful;
 }
 
+// The same as of_segment(certify()), with bounds for the whole scene instead of those for
+// the item, so that there is nothing to find but signs.  With V, at least D and every
+// |v|: U <= 2 V D, so that ds <= 128 e V^2 D^2 (taken with 130) and dn <= 520 e V^3 D^2;
+// and t - 1 has the sign of n - d_k sum, with an error of dn + D (3 ds + 12 e U^2) and
+// roundings of products up to 6 U^2 D: 1010 e V^3 D^2, taken with 1100.
+template <int N>
+Passage passage(const Line& line, const Item& item) {
+  const int i = line.axis[0], j = line.axis[1], k = line.axis[2];
+  double ux[N], uy[N], vk[N], s[N];
+  for (int c = 0; c < N; ++c) {
+    vk[c] = item.p[c][k] - line.a[2];
+    ux[c] = (item.p[c][i] - line.a[0]) * line.d[2] - vk[c] * line.d[0];
+    uy[c] = (item.p[c][j] - line.a[1]) * line.d[2] - vk[c] * line.d[1];
+  }
+  for (int c = 0; c < N; ++c) {
+    const int next = c + 1 == N ? 0 : c + 1;
+    s[c] = ux[c] * uy[next] - uy[c] * ux[next];
+  }
+  double least = std::min(s[0], s[1]), most = std::max(s[0], s[1]);
+  for (int c = 2; c < N; ++c) {
+    least = std::min(least, s[c]);
+    most = std::max(most, s[c]);
+  }
+  if (least < -line.s_bound && most > line.s_bound) return Passage::Misses;
+  if (!(least > line.s_bound || most < -line.s_bound)) return Passage::Doubtful;
+  const double w1 = N == 3 ? s[N - 1] : ux[2] * uy[0] - uy[2] * ux[0];
+  const double sum = s[1] + w1 + s[0];
+  double past_a = s[1] * vk[0] + w1 * vk[1] + s[0] * vk[2];
+  double past_b = past_a - line.d[2] * sum;
+  // The sum has the sign of every s: it is the face's area but for what w1 leaves out.
+  if ((least > 0) != (line.d[2] > 0)) {
+    past_a = -past_a;
+    past_b = -past_b;
+  }
+  if (past_a > line.n_bound && past_b < -line.n_bound) return Passage::Crosses;
+  if (past_a < -line.n_bound || past_b > line.n_bound) return Passage::Misses;
+  return Passage::Doubtful;
+}
+
+inline Passage segment_passage(const Line& line, const Item& item) {
+  const Passage first = item.count == 4 ? passage<4>(line, item) : passage<3>(line, item);
+  return first == Passage::Doubtful ? of_segment(certify(line, item)) : first;
+}
+
 // A part of a line in Embree's coordinates: ray parameter 0 is t0, 1 is t1.
 struct FloatRay {
   enum { Outside, Inside, TooFar } where;
   RTCRay ray;
+  double t0, t1;
 };
 
 }  // namespace
@@ -168,40 +220,31 @@ struct OcclusionIndex::Impl {
 
   const Scene& scene;
   std::vector<Item> items;
-  std::vector<Triple> points;          // of the items
-  std::vector<std::uint32_t> item_of;  // of Embree's triangles
   Point center;
   double scale = 1;  // a power of two
   Bvh bvh;           // over faces
   RTCDevice device = nullptr;
-  RTCScene triangles = nullptr, boxes = nullptr;
+  RTCScene boxes = nullptr;
 
   void add_items();
   void choose_frame();
-  void build_triangles();
-  void build_boxes();
+  void build();
 
   // What an Embree call of ours carries.
   struct Query {
     RTCIntersectContext context;  // first: Embree hands out its address
-    const Impl* self;
     const Line* line;
-    bool crossed = false;     // certainly
-    int beyond = 0;           // nearest(): +1 past b, -1 before a
-    bool whole_line = false;  // faces(): whatever meets the line is wanted
+    const Item* items;
     std::vector<int>* faces;
+    bool crossed = false;     // certainly
+    bool whole_line = false;  // faces_near(): whatever meets the line is wanted
+    // nearest(): +1 past b, -1 before a; the ray's range; the answer.
+    int beyond = 0;
+    double t0 = 0, t1 = 1, t = 0;
   };
 
-  [[nodiscard]] std::span<const Triple> item_points(const Item& item) const {
-    return {points.data() + item.first, item.count};
-  }
-  [[nodiscard]] Crossing crossing(const Line& line, std::uint32_t item) const {
-    const Item& it = items[item];
-    return certify(line, points.data() + it.first, it.count);
-  }
   [[nodiscard]] FloatRay float_ray(const Point& a, const Point& b, double t0,
                                    double t1) const;
-  void init(Query& query, const Line& line) const;
   [[nodiscard]] double nearest(const Point& a, const Point& b, int beyond) const;
   [[nodiscard]] std::vector<int> faces_near(const Point& a, const Point& b, double t0,
                                             double t1) const;
@@ -224,37 +267,26 @@ OcclusionIndex::Impl::Impl(const Scene& scene_)
       }()) {
   add_items();
   choose_frame();
-  device = rtcNewDevice(nullptr);
-  build_triangles();
-  build_boxes();
+  build();
 }
 
 OcclusionIndex::Impl::~Impl() {
-  rtcReleaseScene(triangles);
   rtcReleaseScene(boxes);
   rtcReleaseDevice(device);
 }
 
 void OcclusionIndex::Impl::add_items() {
-  const auto add = [&](int face, std::initializer_list<int> some,
-                       std::span<const int> all) {
-    const std::span<const int> ids =
-        all.empty() ? std::span<const int>(some.begin(), some.size()) : all;
-    items.push_back({face, static_cast<std::uint32_t>(points.size()),
-                     static_cast<std::uint32_t>(ids.size())});
-    for (const int p : ids) {
-      const Point& x = scene.point(p);
-      points.push_back({x[0], x[1], x[2]});
-    }
-  };
   for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
     const auto ids = scene.face_points(f);
-    if (ids.size() <= kMostCorners) {
-      add(f, {}, ids);
-    } else {
-      for (std::size_t i = 1; i + 1 < ids.size(); ++i) {
-        add(f, {ids[0], ids[i], ids[i + 1]}, {});
+    const int n = static_cast<int>(ids.size());
+    // Pieces with corners 0 and i, i + 1, i + 2 or, at the end, i, i + 1.
+    for (int i = 1; i + 1 < n; i += 2) {
+      Item item{{}, f, std::min(kMostCorners, n - i + 1)};
+      for (int c = 0; c < item.count; ++c) {
+        const Point& p = scene.point(ids[c == 0 ? 0 : i + c - 1]);
+        for (int axis = 0; axis < 3; ++axis) item.p[c][axis] = p[axis];
       }
+      items.push_back(item);
     }
   }
 }
@@ -268,61 +300,8 @@ void OcclusionIndex::Impl::choose_frame() {
   scale = half > 0 ? std::ldexp(1.0, -exponent) : 1;
 }
 
-void OcclusionIndex::Impl::build_triangles() {
-  triangles = rtcNewScene(device);
-  rtcSetSceneFlags(triangles, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(triangles, RTC_BUILD_QUALITY_HIGH);
-  const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-  std::size_t count = 0;
-  for (const Item& item : items) count += item.count - 2;
-  auto* const vertices = static_cast<float*>(
-      rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                              3 * sizeof(float), points.size()));
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    for (int i = 0; i < 3; ++i) {
-      vertices[3 * p + i] = static_cast<float>((points[p][i] - center[i]) * scale);
-    }
-  }
-  auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), count));
-  item_of.reserve(count);
-  for (std::uint32_t n = 0; n < items.size(); ++n) {
-    for (std::uint32_t i = 1; i + 1 < items[n].count; ++i) {
-      *indices++ = items[n].first;
-      *indices++ = items[n].first + i;
-      *indices++ = items[n].first + i + 1;
-      item_of.push_back(n);
-    }
-  }
-  rtcSetGeometryUserData(geometry, this);
-  rtcSetGeometryOccludedFilterFunction(
-      geometry, [](const RTCFilterFunctionNArguments* args) {
-        assert(args->N == 1);
-        auto& query = *reinterpret_cast<Query*>(args->context);
-        const auto item = query.self->item_of[RTCHitN_primID(args->hit, 1, 0)];
-        if (of_segment(query.self->crossing(*query.line, item)) == Passage::Crosses) {
-          query.crossed = true;
-        } else {
-          args->valid[0] = 0;
-        }
-      });
-  rtcSetGeometryIntersectFilterFunction(
-      geometry, [](const RTCFilterFunctionNArguments* args) {
-        assert(args->N == 1);
-        const auto& query = *reinterpret_cast<const Query*>(args->context);
-        const auto item = query.self->item_of[RTCHitN_primID(args->hit, 1, 0)];
-        const Crossing c = query.self->crossing(*query.line, item);
-        const bool wanted = c.line == Passage::Crosses &&
-                            (query.beyond > 0 ? c.past_b > 0 : c.past_a < 0);
-        if (!wanted) args->valid[0] = 0;
-      });
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(triangles, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(triangles);
-}
-
-void OcclusionIndex::Impl::build_boxes() {
+void OcclusionIndex::Impl::build() {
+  device = rtcNewDevice(nullptr);
   boxes = rtcNewScene(device);
   rtcSetSceneFlags(boxes, RTC_SCENE_FLAG_ROBUST);
   rtcSetSceneBuildQuality(boxes, RTC_BUILD_QUALITY_HIGH);
@@ -333,45 +312,56 @@ void OcclusionIndex::Impl::build_boxes() {
       geometry,
       [](const RTCBoundsFunctionArguments* args) {
         const auto& self = *static_cast<const Impl*>(args->geometryUserPtr);
+        const Item& item = self.items[args->primID];
         std::array<float, 3> low, high;
         low.fill(std::numeric_limits<float>::infinity());
         high.fill(-std::numeric_limits<float>::infinity());
-        for (const Triple& p : self.item_points(self.items[args->primID])) {
+        for (int c = 0; c < item.count; ++c) {
           for (int i = 0; i < 3; ++i) {
-            const auto x = static_cast<float>((p[i] - self.center[i]) * self.scale);
+            const auto x =
+                static_cast<float>((item.p[c][i] - self.center[i]) * self.scale);
             low[i] = std::min(low[i], x - kInflation);
             high[i] = std::max(high[i], x + kInflation);
           }
         }
-        RTCBounds& out = *args->bounds_o;
-        out.lower_x = low[0];
-        out.lower_y = low[1];
-        out.lower_z = low[2];
-        out.upper_x = high[0];
-        out.upper_y = high[1];
-        out.upper_z = high[2];
+        *args->bounds_o = {low[0], low[1], low[2], 0, high[0], high[1], high[2], 0};
       },
       nullptr);
   rtcSetGeometryOccludedFunction(geometry, [](const RTCOccludedFunctionNArguments* args) {
-    assert(args->N == 1);
-    if (!args->valid[0]) return;
     auto& query = *reinterpret_cast<Query*>(args->context);
-    const Crossing c = query.self->crossing(*query.line, args->primID);
-    if (c.line == Passage::Misses) return;
-    if (!query.whole_line) {
-      switch (of_segment(c)) {
-        case Passage::Misses:
-          return;
-        case Passage::Crosses:
-          query.crossed = true;
-          RTCRayN_tfar(args->ray, 1, 0) = -std::numeric_limits<float>::infinity();
-          return;
-        case Passage::Doubtful:
-          break;
+    const Item& item = query.items[args->primID];
+    if (query.whole_line) {
+      if (certify(*query.line, item).line == Passage::Misses) return;
+    } else {
+      const Passage passage = segment_passage(*query.line, item);
+      if (passage == Passage::Misses) return;
+      if (passage == Passage::Crosses) {
+        query.crossed = true;
+        RTCRayN_tfar(args->ray, 1, 0) = -std::numeric_limits<float>::infinity();
+        return;
       }
     }
-    query.faces->push_back(query.self->items[args->primID].face);
+    query.faces->push_back(item.face);
   });
+  rtcSetGeometryIntersectFunction(
+      geometry, [](const RTCIntersectFunctionNArguments* args) {
+        auto& query = *reinterpret_cast<Query*>(args->context);
+        const Line& line = *query.line;
+        const Crossing c = certify(line, query.items[args->primID]);
+        if (c.line != Passage::Crosses) return;
+        if (query.beyond > 0 ? c.past_b <= 0 : c.past_a >= 0) return;
+        // |t| <= (|n| + dn) / (|s| - ds) / |d_k|, with room for the roundings of this
+        // line and of d_k.
+        const double t = (std::abs(c.n) + c.n_error) / (std::abs(c.s) - c.s_error) /
+                         std::abs(line.d[2]) * (1 + 16 * kUlp);
+        if (t >= query.t) return;
+        query.t = t;
+        // Along the ray, which for `beyond` < 0 runs from b through a: later is harmless.
+        const double along = query.beyond > 0 ? t : 1 + t;
+        const double ray = (along - query.t0) / (query.t1 - query.t0);
+        float& tfar = RTCRayN_tfar(reinterpret_cast<RTCRayN*>(args->rayhit), 1, 0);
+        tfar = std::min(tfar, static_cast<float>(ray * (1 + 1e-6) + 1e-6));
+      });
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(boxes, geometry);
   rtcReleaseGeometry(geometry);
@@ -413,6 +403,8 @@ FloatRay OcclusionIndex::Impl::float_ray(const Point& a, const Point& b, double 
     along = (t1 - t0) * d;
   }
   out.where = FloatRay::Inside;
+  out.t0 = t0;
+  out.t1 = t1;
   out.ray.org_x = static_cast<float>(from[0]);
   out.ray.org_y = static_cast<float>(from[1]);
   out.ray.org_z = static_cast<float>(from[2]);
@@ -428,32 +420,26 @@ FloatRay OcclusionIndex::Impl::float_ray(const Point& a, const Point& b, double 
   return out;
 }
 
-void OcclusionIndex::Impl::init(Query& query, const Line& line) const {
-  rtcInitIntersectContext(&query.context);
-  query.self = this;
-  query.line = &line;
-}
-
 // The answer where double arithmetic can certify it; else the faces that the closed
 // segment perhaps meets, one entry per item.
 std::optional<bool> OcclusionIndex::Impl::is_free_for_certain(
     const Point& a, const Point& b, std::vector<int>& doubtful) const {
-  const Line line(a, b);
+  const Line line(a, b, scene.bounds());
   Query query;
-  init(query, line);
+  rtcInitIntersectContext(&query.context);
+  query.line = &line;
+  query.items = items.data();
   query.faces = &doubtful;
   FloatRay r = float_ray(a, b, 0, 1);
   if (r.where == FloatRay::Outside) return true;
   if (r.where == FloatRay::TooFar) {
-    for (std::uint32_t n = 0; n < items.size() && !query.crossed; ++n) {
-      const Passage passage = of_segment(crossing(line, n));
+    for (std::size_t n = 0; n < items.size() && !query.crossed; ++n) {
+      const Passage passage = segment_passage(line, items[n]);
       if (passage == Passage::Crosses) query.crossed = true;
       if (passage == Passage::Doubtful) doubtful.push_back(items[n].face);
     }
   } else {
-    RTCRay again = r.ray;
-    rtcOccluded1(triangles, &query.context, &r.ray);
-    if (!query.crossed) rtcOccluded1(boxes, &query.context, &again);
+    rtcOccluded1(boxes, &query.context, &r.ray);
   }
   if (query.crossed) return false;
   if (doubtful.empty()) return true;
@@ -463,16 +449,18 @@ std::optional<bool> OcclusionIndex::Impl::is_free_for_certain(
 // Faces that the part [t0, t1] of the line perhaps meets, ascending.
 std::vector<int> OcclusionIndex::Impl::faces_near(const Point& a, const Point& b,
                                                   double t0, double t1) const {
-  const Line line(a, b);
+  const Line line(a, b, scene.bounds());
   std::vector<int> out;
   Query query;
-  init(query, line);
+  rtcInitIntersectContext(&query.context);
+  query.line = &line;
+  query.items = items.data();
   query.whole_line = true;
   query.faces = &out;
   FloatRay r = float_ray(a, b, t0, t1);
   if (r.where == FloatRay::TooFar) {
-    for (std::uint32_t n = 0; n < items.size(); ++n) {
-      if (crossing(line, n).line != Passage::Misses) out.push_back(items[n].face);
+    for (const Item& item : items) {
+      if (certify(line, item).line != Passage::Misses) out.push_back(item.face);
     }
   } else if (r.where == FloatRay::Inside) {
     rtcOccluded1(boxes, &query.context, &r.ray);
@@ -483,30 +471,27 @@ std::vector<int> OcclusionIndex::Impl::faces_near(const Point& a, const Point& b
 }
 
 // A bound on the first position past b (beyond > 0) or the last before a at which a face
-// certainly blocks: the blocker is between it and the segment.  Infinite when Embree
-// knows of none.
+// certainly blocks: there is a blocker between it and the segment.  Infinite when none is
+// known.
 double OcclusionIndex::Impl::nearest(const Point& a, const Point& b, int beyond) const {
-  const double none = beyond > 0 ? kInfinity : -kInfinity;
-  const Line line(a, b);
-  // The direction of the ray runs away from the segment.
-  const FloatRay r =
-      beyond > 0 ? float_ray(a, b, 1, kInfinity) : float_ray(b, a, 1, kInfinity);
-  if (r.where != FloatRay::Inside) return none;
+  const Line line(a, b, scene.bounds());
+  FloatRay r = beyond > 0 ? float_ray(a, b, 1, kInfinity) : float_ray(b, a, 1, kInfinity);
   Query query;
-  init(query, line);
-  query.beyond = beyond;
-  RTCRayHit hit;
-  hit.ray = r.ray;
-  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-  rtcIntersect1(triangles, &query.context, &hit);
-  if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return none;
-  const Crossing c = crossing(line, item_of[hit.hit.primID]);
-  // |t| <= (|n| + dn) / (|s| - ds) / |d_k|, with room for the roundings of this line and
-  // of d_k.
-  const double t = (std::abs(c.n) + c.n_error) / (std::abs(c.s) - c.s_error) /
-                   std::abs(line.d[2]) * (1 + 16 * kUlp);
-  return beyond > 0 ? t : -t;
+  query.t = kInfinity;
+  if (r.where == FloatRay::Inside) {
+    rtcInitIntersectContext(&query.context);
+    query.line = &line;
+    query.items = items.data();
+    query.beyond = beyond;
+    query.t0 = r.t0;
+    query.t1 = r.t1;
+    RTCRayHit hit;
+    hit.ray = r.ray;
+    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    rtcIntersect1(boxes, &query.context, &hit);
+  }
+  return beyond > 0 ? query.t : -query.t;
 }
 
 OcclusionIndex::OcclusionIndex(const Scene& scene)
