@@ -285,6 +285,29 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
 
 }  // namespace
 
+std::uint32_t contact_node(const Generators& g, const Star& star, const Ridge& ridge,
+                           std::span<const std::int32_t> meeting, const Cut& cut,
+                           VertexView& out) {
+  const Scene& scene = g.scene();
+  std::vector<int> faces(meeting.begin(), meeting.end());
+  faces.insert(faces.end(), star.faces.begin(), star.faces.end());
+  const int far = cut.kind == CutKind::Start ? ridge.points[0]
+                  : cut.kind == CutKind::End ? ridge.points[1]
+                                             : -1;
+  if (far >= 0) {
+    const auto& there = g.stars()[g.star_of_point(far)].faces;
+    faces.insert(faces.end(), there.begin(), there.end());
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  out.degenerate = true;
+  const ExactPoint x0 = exact_point(scene.point(ridge.points[0]));
+  const ExactPoint x1 = exact_point(scene.point(ridge.points[1]));
+  const ExactPoint x = along(x0, x1, exact_parameter(scene, x0, x1, cut));
+  const Point& v = scene.point(star.point);
+  return add_node_at(g, v, x, LineScan(scene, faces, exact_point(v), x), out);
+}
+
 void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& ridge,
                          const PlaneSide& plane, const CutUnion& closed,
                          std::span<const std::int32_t> meeting, VertexView& out) {

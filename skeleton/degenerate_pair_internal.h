@@ -22,6 +22,12 @@ void add_degenerate_pair(const Generators& generators, const Star& star,
                          const CutUnion& closed, std::span<const std::int32_t> faces,
                          VertexView& out);
 
+/// The node at a cut of a ridge as its contacts make it, found among `faces` (all that
+/// meet the triangle between).
+std::uint32_t contact_node(const Generators& generators, const Star& star,
+                           const Ridge& ridge, std::span<const std::int32_t> faces,
+                           const Cut& cut, VertexView& out);
+
 /// Looks at every node of a view along its whole maximal free segment: those with more
 /// contacts than their kind has become Degenerate, with all generators listed from the
 /// end with the smaller one.

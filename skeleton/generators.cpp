@@ -12,23 +12,17 @@ Box box_between(const Point& p, const Point& q) {
   return box_of(both);
 }
 
-bool overlap(const Box& a, const Box& b) {
-  for (int i = 0; i < 3; ++i) {
-    if (a.min[i] > b.max[i] || a.max[i] < b.min[i]) return false;
-  }
-  return true;
+Box box_of_face(const Scene& scene, int face) {
+  std::vector<Point> points;
+  for (const int p : scene.face_points(face)) points.push_back(scene.point(p));
+  return box_of(points);
 }
 
 Bvh tree_over_faces(const Scene& scene) {
   std::vector<Box> boxes;
   boxes.reserve(scene.faces().size());
-  std::vector<Point> points;
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
-    points.clear();
-    for (const int p : scene.face_points(static_cast<int>(f))) {
-      points.push_back(scene.point(p));
-    }
-    boxes.push_back(box_of(points));
+    boxes.push_back(box_of_face(scene, static_cast<int>(f)));
   }
   return Bvh(boxes);
 }
@@ -52,6 +46,13 @@ bool same_direction(const Point& origin, const Point& p, const Point& q) {
 enum class EdgeTouch : std::uint8_t { None, Touches, ContainsInside };
 
 }  // namespace
+
+bool boxes_meet(const Box& a, const Box& b) {
+  for (int i = 0; i < 3; ++i) {
+    if (a.min[i] > b.max[i] || a.max[i] < b.min[i]) return false;
+  }
+  return true;
+}
 
 InPlaneSide::InPlaneSide(const Scene& scene, int face) {
   const auto corners = scene.face_points(face);
@@ -174,6 +175,8 @@ Generators::Generators(const Scene& scene, int /*threads*/)
   find_inside();
 }
 
+Box Generators::face_box(int face) const { return box_of_face(*scene_, face); }
+
 void Generators::find_convex_solids() {
   const Scene& s = *scene_;
   convex_.assign(s.objects().size(), 0);
@@ -274,7 +277,7 @@ void Generators::find_ridges() {
     EdgeTouch touched = EdgeTouch::None;
     face_tree_.traverse(
         [&](const Box& other) {
-          return touched != EdgeTouch::ContainsInside && overlap(box, other);
+          return touched != EdgeTouch::ContainsInside && boxes_meet(box, other);
         },
         [&](std::uint32_t item) {
           const int f = static_cast<int>(item);
@@ -333,7 +336,7 @@ void Generators::find_stars() {
       star.facets.push_back(s.faces()[f].facet);
     }
     const Box box = box_between(at, at);
-    face_tree_.traverse([&](const Box& other) { return overlap(box, other); },
+    face_tree_.traverse([&](const Box& other) { return boxes_meet(box, other); },
                         [&](std::uint32_t item) {
                           const int f = static_cast<int>(item);
                           if (has_point(s, f, p) || face_planes_[f](at) != Sign::Zero)

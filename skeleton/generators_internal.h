@@ -77,6 +77,7 @@ class Generators {
   /// Over ridges(); leaves hold ridge numbers.
   [[nodiscard]] const Bvh& ridge_tree() const { return ridge_tree_; }
   [[nodiscard]] const PlaneSide& face_plane(int face) const { return face_planes_[face]; }
+  [[nodiscard]] Box face_box(int face) const;
 
  private:
   void find_convex_solids();
@@ -97,6 +98,9 @@ class Generators {
   std::vector<std::uint8_t> convex_;
   std::vector<std::int32_t> object_starts_, object_ids_;
 };
+
+/// The closed boxes have a point in common.
+[[nodiscard]] bool boxes_meet(const Box& a, const Box& b);
 
 /// The three points that give a face its plane.
 [[nodiscard]] inline std::array<std::int32_t, 3> plane_points(const Scene& scene,

@@ -26,6 +26,14 @@ Sign sign_of(const BoundedValue& value, const PlaneSide& plane, const Point& p) 
   return plane(p);
 }
 
+// A corner of the face off the line through p and q.
+int off_line_point(const Scene& scene, int face, const Point& p, const Point& q) {
+  for (const int c : scene.face_points(face)) {
+    if (!collinear(p, q, scene.point(c))) return c;
+  }
+  return scene.face_points(face)[0];  // not reached: faces have area
+}
+
 bool contains(std::span<const std::int32_t> sorted, std::int32_t x) {
   return std::binary_search(sorted.begin(), sorted.end(), x);
 }
@@ -130,7 +138,8 @@ struct VertexViewer::Pair {
   std::vector<Cut> cuts{};
   std::vector<std::int32_t> faces{};  // that meet the triangle: all of them
   std::vector<std::int32_t> edge_facets{};
-  bool degenerate = false;
+  bool mild = false;        // some sign is zero: ends need their contacts listed
+  bool degenerate = false;  // stretches need the general contact test
 
   void close(const Cut& from, const Cut& to) { closed.add(from, to); }
   Cut keep(const Cut& cut) {
@@ -382,7 +391,8 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   for (const Edge::Side& side : edge.sides) {
     pair.edge_facets.push_back(scene_.faces()[side.face].facet);
   }
-  pair.degenerate = a == Sign::Zero || b == Sign::Zero || r.touched || star_->touched;
+  pair.mild = a == Sign::Zero || b == Sign::Zero;
+  pair.degenerate = r.touched || star_->touched;
   if (star_->convex) add_unsupported_convex(pair);
   if (pair.closed.covers_all()) return;
 
@@ -419,10 +429,12 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     open = pair.closed.complement();
     if (open.empty()) return;
   }
-  if (pair.degenerate || !ends_are_simple(pair, open)) {
+  pair.degenerate = pair.degenerate || (pair.mild && touching_across(pair));
+  if (pair.degenerate) {
     add_degenerate_pair(g_, *star_, r, pair.plane, pair.closed, pair.faces, out);
     return;
   }
+  const bool mild = pair.mild || !ends_are_simple(pair, open);
   const bool self = own_objects_.size() == 1 && own_objects_[0] == edge.object;
   for (const CutInterval& i : open) {
     SkeletonArc arc;
@@ -430,7 +442,12 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     arc.edge = r.edge;
     arc.self = self;
     arc.range = {i.from.parameter(), i.to.parameter()};
-    arc.nodes = {end_node(pair, i.from, out), end_node(pair, i.to, out)};
+    if (mild) {
+      arc.nodes = {contact_node(g_, *star_, r, pair.faces, i.from, out),
+                   contact_node(g_, *star_, r, pair.faces, i.to, out)};
+    } else {
+      arc.nodes = {end_node(pair, i.from, out), end_node(pair, i.to, out)};
+    }
     out.arcs.push_back(arc);
     out.intervals.push_back(i);
   }
@@ -473,9 +490,14 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
     stray |= signs[k] == Sign::Zero;
   }
   if (stray) {
-    pair.degenerate = true;
-    if (front == back || !stands_on_ground(pair, face, {signs, n})) return;
-    // What stands on the plane hides like what crosses it.
+    pair.mild = true;
+    if (front != back && !continues_across(face, {signs, n}) &&
+        !stands_on_ground(pair, face, {signs, n})) {
+      return;  // touches the plane from one side
+    }
+    if (!front && !back) return;
+    // A face with a corner in the plane crosses it there; one whose neighbour across a
+    // side in the plane goes on beyond it hides what this side hides.
     for (std::size_t k = 0; k < n; ++k) {
       if (signs[k] == Sign::Zero) signs[k] = front ? Sign::Negative : Sign::Positive;
     }
@@ -485,7 +507,7 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
   const PlaneSide& face_plane = g_.face_plane(face);
   const Sign here = face_plane(at_);
   if (here == Sign::Zero) {
-    pair.degenerate = true;  // seen edge-on: hides one line at most
+    pair.mild = true;  // seen edge-on: hides one line at most
     return;
   }
   const BoundedValue value0 = face_plane.value(pair.e0);
@@ -527,7 +549,7 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
     const Sign s0 = sign_of(x0, side_plane, pair.e0);
     const Sign s1 = sign_of(x1, side_plane, pair.e1);
     if (s0 == Sign::Zero || s1 == Sign::Zero) {
-      pair.degenerate = true;
+      pair.mild = true;
     }
     // Negative s0: to the left of the ray to e0; positive s1: to the right of that to e1.
     if (s0 == Sign::Negative && s1 == Sign::Positive) {
@@ -577,6 +599,83 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
   }
 }
 
+// A side of the face lies in the plane of the pair, all else of the face on one side of
+// it, and the face's neighbour across that side on the other.
+bool VertexViewer::continues_across(int face, std::span<const Sign> signs) const {
+  const auto corners = scene_.face_points(face);
+  const std::size_t n = signs.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (signs[k] != Sign::Zero || signs[(k + 1) % n] != Sign::Zero) continue;
+    const int edge = scene_.edge_of_side(face, static_cast<int>(k));
+    if (edge < 0) return true;  // flat: the facet goes on
+    const Scene& s = scene_;
+    const auto& sides = s.edges()[edge].sides;
+    const Point& p = s.point(corners[k]);
+    const Point& q = s.point(corners[(k + 1) % n]);
+    const Point& own = s.point(off_line_point(s, face, p, q));
+    for (const Edge::Side& side : sides) {
+      if (side.face == face || s.faces()[side.face].facet == s.faces()[face].facet)
+        continue;
+      const Point& other = s.point(off_line_point(s, side.face, p, q));
+      if (orient3d(at_, p, q, own) == -orient3d(at_, p, q, other)) return true;
+    }
+  }
+  return false;
+}
+
+// Two faces of different objects (or of one that is not convex) that lie on or touch the
+// plane of the pair from opposite sides, and may touch each other: a line between them
+// may be blocked though neither crosses the plane.
+bool VertexViewer::touching_across(const Pair& pair) const {
+  std::vector<int> above, below;
+  int off_plane = -1;
+  for (const int p : scene_.corners()) {
+    if (pair.plane(scene_.point(p)) == Sign::Zero) continue;
+    off_plane = p;
+    break;
+  }
+  std::vector<Sign> signs;
+  for (const int face : pair.faces) {
+    const Face& f = scene_.faces()[face];
+    const auto corners = scene_.face_points(face);
+    bool front = false;
+    bool back = false;
+    bool zero = false;
+    signs.clear();
+    for (const int c : corners) {
+      const bool own = c == point_ || c == pair.r->points[0] || c == pair.r->points[1];
+      signs.push_back(own ? Sign::Zero : pair.plane(scene_.point(c)));
+      front |= signs.back() == Sign::Positive;
+      back |= signs.back() == Sign::Negative;
+      zero |= signs.back() == Sign::Zero;
+    }
+    if (!zero || (front && back)) continue;
+    if (!front && !back) {
+      if (!scene_.objects()[f.object].closed || off_plane < 0) return true;
+      // The solid lies behind the face.
+      const Sign solid = -(g_.face_plane(face)(scene_.point(off_plane)) *
+                           pair.plane(scene_.point(off_plane)));
+      (solid == Sign::Positive ? above : below).push_back(face);
+      continue;
+    }
+    if (facet_stamp_[f.facet] == stamp_ || continues_across(face, signs) ||
+        std::find(pair.edge_facets.begin(), pair.edge_facets.end(), f.facet) !=
+            pair.edge_facets.end()) {
+      continue;
+    }
+    (front ? above : below).push_back(face);
+  }
+  for (const int f : above) {
+    const Box box = g_.face_box(f);
+    const int object = scene_.faces()[f].object;
+    for (const int h : below) {
+      if (scene_.faces()[h].object == object && g_.convex_solid(object)) continue;
+      if (boxes_meet(box, g_.face_box(h))) return true;
+    }
+  }
+  return false;
+}
+
 // For a viewpoint inside a facet of a convex solid, and the lines in that facet's plane:
 // the solid blocks whatever dips below, so a face that stands on the facet with one of
 // its sides blocks all lines that meet this side.
@@ -620,7 +719,7 @@ void VertexViewer::add_unsupported_convex(Pair& pair) {
       const Sign s0 = sign_of(x0, plane, pair.e0);
       const Sign s1 = sign_of(x1, plane, pair.e1);
       if (s0 == Sign::Zero || s1 == Sign::Zero) {
-        pair.degenerate = true;
+        pair.mild = true;
       }
       if (s0 == inside && s1 == inside) continue;
       if (s0 != inside && s1 != inside) {

@@ -64,6 +64,8 @@ class VertexViewer {
   void visit_ridges(VertexView& out);
   void view_ridge(int ridge, VertexView& out);
   void add_blocker(Pair& pair, int face);
+  [[nodiscard]] bool continues_across(int face, std::span<const Sign> signs) const;
+  [[nodiscard]] bool touching_across(const Pair& pair) const;
   [[nodiscard]] bool stands_on_ground(const Pair& pair, int face,
                                       std::span<const Sign> signs) const;
   void add_unsupported_convex(Pair& pair);
