@@ -185,6 +185,7 @@ class MotionSearch {
   }
 
   bool possible() {
+    if (!cells_allow_it()) return false;
     for (const int sense : {1, -1}) {
       for (int c = 0; c < size(); ++c) {
         if (closed_[0][c]) continue;
@@ -223,6 +224,30 @@ class MotionSearch {
                 upper.end());
     rays_ = upper;
     for (const Ray& r : upper) rays_.push_back(-r);
+  }
+
+  // Some sequence of cells that turns one way, by a half turn at most, is closed at no
+  // instant and crosses no barrier: necessary, and no linear program is needed.
+  [[nodiscard]] bool cells_allow_it() const {
+    for (const int sense : {1, -1}) {
+      for (int start = 0; start < size(); ++start) {
+        if (closed_[0][start]) continue;
+        std::vector<char> reached(half() + 1, 0);  // by cells turned so far
+        reached[0] = 1;
+        for (std::size_t i = 1; i < instants_.size(); ++i) {
+          bool open = false;  // some way leads here, no barrier in between
+          for (int turned = 0; turned <= half(); ++turned) {
+            const int here = wrapped(start + sense * turned);
+            if (turned > 0 && up_[i - 1][sense > 0 ? here : wrapped(here + 1)])
+              open = false;
+            open = open || reached[turned] != 0;
+            reached[turned] = open && !closed_[i][here];
+          }
+        }
+        if (std::find(reached.begin(), reached.end(), 1) != reached.end()) return true;
+      }
+    }
+    return false;
   }
 
   // Continues the cells found so far, having turned by `turned` cells in all.
