@@ -159,6 +159,9 @@ bool covers(std::span<const SectorAt> sectors) {
 // cells before are the first and all after the second, and both senses are possible: in
 // the coordinates of the cell's two sides both must change sign between the two instants,
 // in any order.
+//
+// Which cells can be followed by which is found first, without regard to straightness
+// (passable_); only what can be completed so is tried, and asked of the linear program.
 class MotionSearch {
  public:
   MotionSearch(std::vector<Rational> instants, std::span<const SectorAt> sectors,
@@ -185,10 +188,10 @@ class MotionSearch {
   }
 
   bool possible() {
-    if (!cells_allow_it()) return false;
     for (const int sense : {1, -1}) {
+      find_passable(sense);
       for (int c = 0; c < size(); ++c) {
-        if (closed_[0][c]) continue;
+        if (!passable(0, c, 0)) continue;
         cells_.assign(1, c);
         if (extend(sense, 0)) return true;
       }
@@ -226,26 +229,41 @@ class MotionSearch {
     for (const Ray& r : upper) rays_.push_back(-r);
   }
 
-  // Some sequence of cells that turns one way, by a half turn at most, is closed at no
-  // instant and crosses no barrier: necessary, and no linear program is needed.
-  [[nodiscard]] bool cells_allow_it() const {
-    for (const int sense : {1, -1}) {
-      for (int start = 0; start < size(); ++start) {
-        if (closed_[0][start]) continue;
-        std::vector<char> reached(half() + 1, 0);  // by cells turned so far
-        reached[0] = 1;
-        for (std::size_t i = 1; i < instants_.size(); ++i) {
-          bool open = false;  // some way leads here, no barrier in between
-          for (int turned = 0; turned <= half(); ++turned) {
-            const int here = wrapped(start + sense * turned);
-            if (turned > 0 && up_[i - 1][sense > 0 ? here : wrapped(here + 1)])
-              open = false;
-            open = open || reached[turned] != 0;
-            reached[turned] = open && !closed_[i][here];
-          }
+  // From the cell at instant i, having turned by `turned` cells so far, free cells lead
+  // to the last instant.
+  [[nodiscard]] char& passable(std::size_t i, int cell, int turned) {
+    return passable_[(i * rays_.size() + static_cast<std::size_t>(cell)) *
+                         static_cast<std::size_t>(half() + 1) +
+                     static_cast<std::size_t>(turned)];
+  }
+
+  void find_passable(int sense) {
+    const std::size_t count = instants_.size();
+    passable_.assign(count * rays_.size() * static_cast<std::size_t>(half() + 1), 0);
+    for (std::size_t i = count; i-- > 0;) {
+      for (int c = 0; c < size(); ++c) {
+        if (closed_[i][c]) continue;
+        for (int turned = 0; turned <= half(); ++turned) {
+          passable(i, c, turned) =
+              i + 1 == count || any_step(sense, i, c, turned, [&](int next, int step) {
+                return step == half() ? stays_free(next, i + 1)
+                                      : passable(i + 1, next, turned + step) != 0;
+              });
         }
-        if (std::find(reached.begin(), reached.end(), 1) != reached.end()) return true;
       }
+    }
+  }
+
+  // Some step from a cell at instant i to a cell at the next, past no barrier, is
+  // accepted.
+  template <class Accept>
+  bool any_step(int sense, std::size_t i, int here, int turned, Accept&& accept) const {
+    for (int step = 0; turned + step <= half(); ++step) {
+      if (step > 0) {
+        const int crossed = sense > 0 ? wrapped(here + step) : wrapped(here - step + 1);
+        if (up_[i][crossed]) return false;
+      }
+      if (accept(wrapped(here + sense * step), step)) return true;
     }
     return false;
   }
@@ -254,20 +272,16 @@ class MotionSearch {
   bool extend(int sense, int turned) {
     const std::size_t i = cells_.size();
     if (i == instants_.size()) return true;
-    const int here = cells_.back();
-    for (int step = 0; turned + step <= half(); ++step) {
-      if (step > 0) {
-        const int crossed = sense > 0 ? wrapped(here + step) : wrapped(here - step + 1);
-        if (up_[i - 1][crossed]) return false;
-      }
-      const int next = wrapped(here + sense * step);
-      if (closed_[i][next]) continue;
+    return any_step(sense, i - 1, cells_.back(), turned, [&](int next, int step) {
       if (step == half()) return stays_free(next, i);
+      if (!passable(i, next, turned + step)) return false;
       cells_.push_back(next);
-      if (is_a_motion() && extend(sense, turned + step)) return true;
+      // A step to the same cell needs no look of its own unless it is the last.
+      const bool look = step > 0 || i + 1 == instants_.size();
+      if ((!look || is_a_motion()) && extend(sense, turned + step)) return true;
       cells_.pop_back();
-    }
-    return false;
+      return false;
+    });
   }
 
   [[nodiscard]] bool stays_free(int cell, std::size_t from) const {
@@ -306,6 +320,12 @@ class MotionSearch {
       ++row;
     };
     for (int ray = 0; ray < half(); ++ray) {
+      // Lines that bound none of the cells say nothing that others do not.
+      if (std::none_of(cells_.begin(), cells_.end(), [&](int c) {
+            return c % half() == ray || (c + 1) % half() == ray;
+          })) {
+        continue;
+      }
       std::size_t last = 0;  // last instant before the change of side
       while (last + 1 < count &&
              left_of(ray, cells_[last + 1]) == left_of(ray, cells_[0])) {
@@ -323,6 +343,7 @@ class MotionSearch {
   std::vector<std::vector<char>> closed_;  // [instant][cell]
   std::vector<std::vector<char>> up_;      // [between instant and the next][ray]
   std::vector<int> cells_;                 // at the first instants
+  std::vector<char> passable_;             // see passable()
 };
 
 // The rounded line for the first stage: |a - line a| <= a_error, direction scaled to
