@@ -23,6 +23,25 @@ void refuse_line(const std::string& path, std::size_t line, const std::string& m
   throw InvalidInput(path + ":" + std::to_string(line) + ": " + message);
 }
 
+std::string load_file(const std::string& path) {
+  std::error_code error;
+  if (std::filesystem::is_directory(path, error)) refuse(path, "is a folder");
+  std::ifstream in(path, std::ios::binary);
+  if (!in) refuse(path, "cannot be opened");
+  std::string bytes;
+  constexpr std::size_t kBlock = 1 << 20;
+  for (;;) {
+    const std::size_t size = bytes.size();
+    bytes.resize(size + kBlock);
+    in.read(bytes.data() + size, kBlock);
+    bytes.resize(size + static_cast<std::size_t>(in.gcount()));
+    if (in.gcount() == 0) break;
+  }
+  if (in.bad()) refuse(path, "cannot be read");
+  if (bytes.empty()) refuse(path, "the file is empty");
+  return bytes;
+}
+
 std::string quoted(std::string_view text) {
   constexpr std::size_t kShown = 24;
   std::string shown = "'";
@@ -127,25 +146,6 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-std::string load(const std::string& path) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) refuse(path, "is a folder");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) refuse(path, "cannot be opened");
-  std::string bytes;
-  constexpr std::size_t kBlock = 1 << 20;
-  for (;;) {
-    const std::size_t size = bytes.size();
-    bytes.resize(size + kBlock);
-    in.read(bytes.data() + size, kBlock);
-    bytes.resize(size + static_cast<std::size_t>(in.gcount()));
-    if (in.gcount() == 0) break;
-  }
-  if (in.bad()) refuse(path, "cannot be read");
-  if (bytes.empty()) refuse(path, "the file is empty");
-  return bytes;
-}
-
 struct Format {
   const char* extension;
   PolygonSoup (*read)(const std::string& path, std::string_view bytes);
@@ -163,7 +163,7 @@ PolygonSoup read_mesh(const std::string& path) {
                    [&](const auto& f) { return extension == f.extension; });
   PolygonSoup soup;
   if (format != std::end(internal::kFormats)) {
-    const std::string bytes = internal::load(path);
+    const std::string bytes = internal::load_file(path);
     soup = format->read(path, bytes);
   } else {
     soup = internal::read_with_assimp(path, extension);

@@ -1,6 +1,7 @@
 // glTF, IFC, AC3D and the other scene formats, through assimp.
 
 #include <algorithm>
+#include <cmath>
 
 #include "linespace/mesh_io_internal.h"
 
@@ -26,16 +27,31 @@ Eigen::Affine3d transformation(const aiMatrix4x4& m) {
   return t;
 }
 
+// assimp turns IFC models by a quarter around x, with a cosine of -4.4e-8 in single
+// precision, which would skew whatever is aligned.  Turned back exactly, with what that
+// cosine left behind removed: entries under 2^-24 of the largest.
+Eigen::Affine3d upright(const Eigen::Affine3d& root) {
+  Eigen::Matrix4d back;
+  back << 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1;
+  Eigen::Affine3d t(back * root.matrix());
+  const double least = 0x1p-24 * t.linear().cwiseAbs().maxCoeff();
+  t.linear() =
+      t.linear().unaryExpr([least](double x) { return std::abs(x) < least ? 0 : x; });
+  return t;
+}
+
 // Walks the tree of nodes: their transformations are composed in double, which assimp's
 // own flattening does in single precision, and their names make the groups.  A node's
 // group has the faces of all nodes below it.
 class SceneWalker {
  public:
-  explicit SceneWalker(const aiScene& scene) : scene_(scene) {}
+  SceneWalker(const std::string& path, const aiScene& scene)
+      : path_(path), scene_(scene) {}
 
-  PolygonSoup walk() {
+  PolygonSoup walk(bool is_ifc) {
     if (scene_.mRootNode != nullptr) {
-      visit(*scene_.mRootNode, Eigen::Affine3d::Identity());
+      const Eigen::Affine3d root = transformation(scene_.mRootNode->mTransformation);
+      visit(*scene_.mRootNode, is_ifc ? upright(root) : root);
     }
     name_groups();
     return std::move(soup_);
@@ -49,13 +65,15 @@ class SceneWalker {
     bool is_root;
   };
 
-  void visit(const aiNode& node, const Eigen::Affine3d& parent) {
-    const Eigen::Affine3d to_world = parent * transformation(node.mTransformation);
+  void visit(const aiNode& node, const Eigen::Affine3d& to_world) {
     const int first = static_cast<int>(soup_.polygons.size());
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
       append(*scene_.mMeshes[node.mMeshes[i]], to_world);
     }
-    for (unsigned i = 0; i < node.mNumChildren; ++i) visit(*node.mChildren[i], to_world);
+    for (unsigned i = 0; i < node.mNumChildren; ++i) {
+      const aiNode& child = *node.mChildren[i];
+      visit(child, to_world * transformation(child.mTransformation));
+    }
     const int last = static_cast<int>(soup_.polygons.size());
     const std::string name = node.mName.C_Str();
     if (last > first && !name.empty()) {
@@ -101,6 +119,10 @@ class SceneWalker {
       std::vector<int> polygon;
       polygon.reserve(face.mNumIndices);
       for (unsigned j = 0; j < face.mNumIndices; ++j) {
+        if (face.mIndices[j] >= mesh.mNumVertices) {
+          refuse(path_, "face " + std::to_string(soup_.polygons.size()) +
+                            " names a vertex that its mesh does not have");
+        }
         polygon.push_back(first + static_cast<int>(face.mIndices[j]));
       }
       if (mirrored) std::reverse(polygon.begin(), polygon.end());
@@ -108,6 +130,7 @@ class SceneWalker {
     }
   }
 
+  const std::string& path_;
   const aiScene& scene_;
   PolygonSoup soup_;
   std::vector<NamedRange> ranges_;
@@ -126,12 +149,13 @@ PolygonSoup read_with_assimp(const std::string& path, const std::string& extensi
   if (!std::binary_search(known.begin(), known.end(), extension)) {
     refuse(path, "no mesh format is known by the extension " + quoted(extension));
   }
+  if (extension == "ifc") check_step(path, load_file(path));
   try {
     Assimp::Importer importer;
     // Polygons stay whole where the format has them: Scene cuts them exactly.
     const aiScene* const scene = importer.ReadFile(path, 0);
     if (scene == nullptr) refuse(path, one_line(importer.GetErrorString()));
-    return SceneWalker(*scene).walk();
+    return SceneWalker(path, *scene).walk(extension == "ifc" || extension == "ifczip");
   } catch (const InvalidInput&) {
     throw;
   } catch (const std::exception& error) {

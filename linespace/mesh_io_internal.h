@@ -15,6 +15,9 @@ namespace sightline::internal {
 [[noreturn]] void refuse_line(const std::string& path, std::size_t line,
                               const std::string& message);
 
+/// The bytes of a file that is not empty.
+[[nodiscard]] std::string load_file(const std::string& path);
+
 /// Walks over the lines of a text; `\r\n` and `\r` end a line as `\n` does.
 class LineReader {
  public:
@@ -64,6 +67,9 @@ class LineReader {
 [[nodiscard]] PolygonSoup read_off(const std::string& path, std::string_view text);
 [[nodiscard]] PolygonSoup read_ply(const std::string& path, std::string_view bytes);
 [[nodiscard]] PolygonSoup read_stl(const std::string& path, std::string_view bytes);
+
+/// Refuses an IFC file that ends early, is no text, or names records that it lacks.
+void check_step(const std::string& path, std::string_view text);
 
 /// Through assimp; throws InvalidInput when the build has none.
 [[nodiscard]] PolygonSoup read_with_assimp(const std::string& path,
