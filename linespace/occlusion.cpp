@@ -49,7 +49,7 @@ enum class Passage : std::uint8_t { Misses, Crosses, Doubtful };
 
 // A face, or a piece of one with many corners.
 constexpr int kMostCorners = 4;
-struct Item {
+struct alignas(64) Item {  // two cache lines
   double p[kMostCorners][3];
   int face;
   int count;

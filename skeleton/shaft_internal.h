@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -27,7 +28,7 @@ inline CentredBox centred(const Box& box) {
   for (int i = 0; i < 3; ++i) {
     c.centre[i] = 0.5 * (box.min[i] + box.max[i]);
     // The subtractions below are each rounded once: 4 units cover both.
-    const double h = std::fmax(box.max[i] - c.centre[i], c.centre[i] - box.min[i]);
+    const double h = std::max(box.max[i] - c.centre[i], c.centre[i] - box.min[i]);
     c.half[i] = h * (1 + 4 * kUnitRoundoff);
   }
   return c;
@@ -109,8 +110,8 @@ class Shaft {
     const Point u = e0 - v;
     const Point w = e1 - v;
     for (int i = 0; i < 3; ++i) {
-      min_[i] = std::fmin(v[i], std::fmin(e0[i], e1[i]));
-      max_[i] = std::fmax(v[i], std::fmax(e0[i], e1[i]));
+      min_[i] = std::min(v[i], std::min(e0[i], e1[i]));
+      max_[i] = std::max(v[i], std::max(e0[i], e1[i]));
     }
     const Point n = u.cross(w);
     add_axis(n, u, w);
@@ -125,7 +126,7 @@ class Shaft {
     for (int i = 0; i < 3; ++i) {
       if (box.min[i] > max_[i] || box.max[i] < min_[i]) return false;
       const double centre = 0.5 * (box.min[i] + box.max[i]);
-      h[i] = std::fmax(box.max[i] - centre, centre - box.min[i]);
+      h[i] = std::max(box.max[i] - centre, centre - box.min[i]);
       c[i] = centre - v_[i];
     }
     for (const Axis& axis : axes_) {
@@ -157,9 +158,9 @@ class Shaft {
       eu += std::abs(m[i] * u[i]);
       ew += std::abs(m[i] * w[i]);
     }
-    const double error = 16 * kUnitRoundoff * std::fmax(eu, ew);
-    axes_[count_++] = {m, std::fmin(0.0, std::fmin(pu, pw)) - error,
-                       std::fmax(0.0, std::fmax(pu, pw)) + error};
+    const double error = 16 * kUnitRoundoff * std::max(eu, ew);
+    axes_[count_++] = {m, std::min(0.0, std::min(pu, pw)) - error,
+                       std::max(0.0, std::max(pu, pw)) + error};
   }
 
   Point v_;

@@ -11,6 +11,10 @@ namespace {
 
 constexpr std::array<double, 3> kPointHalf{0, 0, 0};
 
+// Squared ratio of a group's half diagonal to its distance above which no occluder is
+// looked for: speed only.
+constexpr double kWideView = 0.1;
+
 std::array<double, 3> relative(const Point& p, const Point& origin) {
   return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
 }
@@ -333,7 +337,15 @@ void VertexViewer::visit_ridges(VertexView& out) {
     std::array<double, 3> c = relative(middle, at_);
     if (!star_->in_plane_only) {
       if (hidden(c, box.half)) continue;
-      if (hidden_behind_proposal(middle, c, box.half)) continue;
+      // A group that fills much of the view is not hidden by one solid.
+      double distance = 0, extent = 0;
+      for (int i = 0; i < 3; ++i) {
+        distance += c[i] * c[i];
+        extent += box.half[i] * box.half[i];
+      }
+      if (extent < kWideView * distance && hidden_behind_proposal(middle, c, box.half)) {
+        continue;
+      }
     }
     if (node.count == 0) {
       stack[top++] = node.first + 1;
@@ -373,8 +385,8 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
       if (ends_hidden(shadows_[s])) return;
     }
     for (int i = 0; i < 3; ++i) {
-      low[i] = std::fmin(c0[i], c1[i]);
-      high[i] = std::fmax(c0[i], c1[i]);
+      low[i] = std::min(c0[i], c1[i]);
+      high[i] = std::max(c0[i], c1[i]);
       c[i] = 0.5 * (low[i] + high[i]);
       h[i] = 0.5 * (high[i] - low[i]);
     }

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include "linespace/mesh_io.h"
 #include "viewers/builtin_scene.h"
@@ -45,21 +46,60 @@ class StageLog {
 };
 
 /// How many strips and nodes a picture and a strip block take before they tell less.
-constexpr std::size_t kDrawnNodes = 4000, kDrawnArcs = 1500, kDrawnStrips = 400;
+constexpr std::size_t kDrawnNodes = 2500, kDrawnStrips = 400;
 
-/// The arcs of the vertex (or the edge) that has most arcs between objects.
+int object_of_vertex(const Scene& scene, int vertex) {
+  return scene.edges()[scene.edges_at(vertex)[0]].object;
+}
+
+/// The largest set of arcs with one key; arcs without a key do not count.
 template <typename Key>
 std::vector<int> busiest(const Skeleton& skeleton, const Key& key) {
   std::map<int, std::vector<int>> by_key;
   for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
-    const SkeletonArc& arc = skeleton.arcs[i];
-    if (!arc.self) by_key[key(arc)].push_back(static_cast<int>(i));
+    if (const std::optional<int> k = key(skeleton.arcs[i])) {
+      by_key[*k].push_back(static_cast<int>(i));
+    }
   }
   std::vector<int> best;
-  for (auto& [id, arcs] : by_key) {
+  for (auto& [k, arcs] : by_key) {
     if (arcs.size() > best.size()) best = std::move(arcs);
   }
   return best;
+}
+
+/// Of the vertex, the edge, the pair of inner objects that has most arcs.
+struct Highlights {
+  std::vector<int> vertex, edge, pair;
+};
+
+Highlights find_highlights(const Scene& scene, const Skeleton& skeleton) {
+  std::vector<char> inner = envelope_objects(scene);
+  const bool any = std::ranges::count(inner, 0) > 0;
+  for (char& i : inner) i = any ? !i : 1;
+  const int objects = static_cast<int>(scene.objects().size());
+  const auto vertex_object = [&](const SkeletonArc& a) {
+    return object_of_vertex(scene, a.vertex);
+  };
+  const auto edge_object = [&](const SkeletonArc& a) {
+    return scene.edges()[a.edge].object;
+  };
+  using Key = std::optional<int>;
+  Highlights found;
+  found.vertex = busiest(skeleton, [&](const SkeletonArc& a) {
+    return inner[vertex_object(a)] ? Key(a.vertex) : Key();
+  });
+  found.edge = busiest(skeleton, [&](const SkeletonArc& a) {
+    return inner[edge_object(a)] ? Key(a.edge) : Key();
+  });
+  if (objects < 40000) {  // the pair's number fits an int
+    found.pair = busiest(skeleton, [&](const SkeletonArc& a) {
+      const int u = vertex_object(a), v = edge_object(a);
+      if (u == v || !inner[u] || !inner[v]) return Key();
+      return Key(std::min(u, v) * objects + std::max(u, v));
+    });
+  }
+  return found;
 }
 
 std::vector<RuledStrip> strips_of(const Scene& scene, const OcclusionIndex& index,
@@ -73,16 +113,16 @@ std::vector<RuledStrip> strips_of(const Scene& scene, const OcclusionIndex& inde
   return strips;
 }
 
-PagePicture strips_picture(const SceneView& view, const Scene& scene,
-                           const Skeleton& skeleton,
+PagePicture strips_picture(const SceneView& view, const Canvas& canvas,
+                           const Scene& scene, const Skeleton& skeleton,
                            const std::vector<RuledStrip>& strips) {
   SceneView marked = view;
   const double crowd = static_cast<double>(strips.size());
   const auto opacity = static_cast<float>(std::clamp(6 / (crowd + 1), 0.05, 0.3));
   for (const RuledStrip& strip : strips) {
-    add_strip(marked.drawing, scene, skeleton, strip, opacity);
+    add_strip(marked, scene, skeleton, strip, opacity);
   }
-  return {"", encode_png(render(marked.drawing, marked.camera)), "", ""};
+  return {"", encode_png(canvas.picture(marked.drawing)), "", ""};
 }
 
 std::string node_legend(const Json& counts) {
@@ -100,11 +140,27 @@ std::string drawn_of(std::size_t drawn, std::size_t all, const char* what) {
                       : fmt::format("{} of {} {}, evenly chosen.", drawn, all, what);
 }
 
+std::string pair_picture(const SceneView& view, const Canvas& canvas, const Scene& scene,
+                         const Skeleton& skeleton, const std::vector<int>& arcs) {
+  SceneView marked = view;
+  const double crowd = static_cast<double>(arcs.size());
+  add_arcs(marked.drawing, scene, skeleton, arcs,
+           static_cast<float>(std::clamp(2.5 / (crowd + 1), 0.02, 0.25)));
+  std::set<int> ends;
+  for (const int a : arcs) {
+    for (const std::uint32_t n : skeleton.arcs[a].nodes) ends.insert(static_cast<int>(n));
+  }
+  add_nodes(marked.drawing, skeleton, std::vector<int>(ends.begin(), ends.end()),
+            static_cast<float>(std::clamp(80 / (crowd + 1), 0.2, 0.9)), 1.4F);
+  return encode_png(canvas.picture(marked.drawing));
+}
+
 std::vector<PagePicture> draw_pictures(
     const Scene& scene, const OcclusionIndex& index, const Skeleton& skeleton,
-    const std::optional<std::array<Point, 2>>& region) {
+    const Highlights& highlights, const std::optional<std::array<Point, 2>>& region) {
   SceneView view = view_scene(scene);
   if (region) add_box(view.drawing, *region, {0.84F, 0.15F, 0.24F});
+  const Canvas canvas(view.drawing, view.camera);
   std::vector<PagePicture> pictures;
 
   SceneView overview = view;
@@ -113,46 +169,51 @@ std::vector<PagePicture> draw_pictures(
   add_nodes(overview.drawing, skeleton, nodes,
             static_cast<float>(std::clamp(300 / (crowd + 1), 0.16, 0.9)),
             crowd > 500 ? 1.1F : 1.8F);
-  pictures.push_back({"nodes.png", encode_png(render(overview.drawing, overview.camera)),
+  pictures.push_back({"nodes.png", encode_png(canvas.picture(overview.drawing)),
                       "Extremal stabbing lines",
                       drawn_of(nodes.size(), skeleton.nodes.size(),
                                "lines, each between its outermost contacts") +
                           " " + node_legend(node_counts(skeleton))});
 
-  const std::vector<int> at_vertex =
-      busiest(skeleton, [](const SkeletonArc& a) { return a.vertex; });
-  if (!at_vertex.empty()) {
-    const std::vector<RuledStrip> strips = strips_of(scene, index, skeleton, at_vertex);
-    PagePicture picture = strips_picture(view, scene, skeleton, strips);
+  if (!highlights.vertex.empty()) {
+    const std::vector<RuledStrip> strips =
+        strips_of(scene, index, skeleton, highlights.vertex);
+    PagePicture picture = strips_picture(view, canvas, scene, skeleton, strips);
     picture.file = "vertex.png";
     picture.title = "All events of one vertex";
-    const Point& v = scene.point(skeleton.arcs[at_vertex[0]].vertex);
+    const Point& v = scene.point(skeleton.arcs[highlights.vertex[0]].vertex);
     picture.caption = fmt::format(
-        "{} The vertex at ({:.4g}, {:.4g}, {:.4g}) and the edges it sees as silhouettes: "
-        "each veil is one EV line set, out to the faces that end it. A light in that "
-        "vertex would cast these shadow edges.",
-        drawn_of(strips.size(), at_vertex.size(), "line sets"), v.x(), v.y(), v.z());
+        "{} The vertex at ({:.4g}, {:.4g}, {:.4g}) and the silhouette edges it sees: "
+        "each "
+        "veil is one EV line set, out to the faces that end it. A light in that vertex "
+        "would cast these shadow edges.",
+        drawn_of(strips.size(), highlights.vertex.size(), "line sets"), v.x(), v.y(),
+        v.z());
     pictures.push_back(std::move(picture));
   }
-  const std::vector<int> at_edge =
-      busiest(skeleton, [](const SkeletonArc& a) { return a.edge; });
-  if (!at_edge.empty()) {
-    const std::vector<RuledStrip> strips = strips_of(scene, index, skeleton, at_edge);
-    PagePicture picture = strips_picture(view, scene, skeleton, strips);
+  if (!highlights.edge.empty()) {
+    const std::vector<RuledStrip> strips =
+        strips_of(scene, index, skeleton, highlights.edge);
+    PagePicture picture = strips_picture(view, canvas, scene, skeleton, strips);
     picture.file = "edge.png";
     picture.title = "All events of one edge";
-    picture.caption = drawn_of(strips.size(), at_edge.size(), "line sets") +
-                      " The edge that most vertices see, with the parts that each sees.";
+    picture.caption = drawn_of(strips.size(), highlights.edge.size(), "line sets") +
+                      " The edge that most vertices see, out to the faces behind it.";
     pictures.push_back(std::move(picture));
   }
-  SceneView arcs = view;
-  const std::vector<int> drawn = evenly_spread(skeleton.arcs.size(), kDrawnArcs);
-  add_arcs(arcs.drawing, scene, skeleton, drawn,
-           static_cast<float>(std::clamp(20 / (drawn.size() + 1.0), 0.012, 0.25)));
-  pictures.push_back(
-      {"arcs.png", encode_png(render(arcs.drawing, arcs.camera)), "EV line sets",
-       drawn_of(drawn.size(), skeleton.arcs.size(),
-                "arcs, each the triangle between its vertex and its part of the edge")});
+  if (!highlights.pair.empty()) {
+    const SkeletonArc& one = skeleton.arcs[highlights.pair[0]];
+    pictures.push_back(
+        {"pair.png", pair_picture(view, canvas, scene, skeleton, highlights.pair),
+         "Between two objects",
+         fmt::format(
+             "All {} arcs between {} and {}, each the triangle between its vertex "
+             "and its part of the edge, with the lines at their ends. {}",
+             highlights.pair.size(),
+             html_escaped(scene.objects()[object_of_vertex(scene, one.vertex)].name),
+             html_escaped(scene.objects()[scene.edges()[one.edge].object].name),
+             "The same pair: <code>sightline skeleton --between A B</code>.")});
+  }
   return pictures;
 }
 
@@ -232,9 +293,9 @@ ExitStatus run(const AnalyseOptions& options) {
   // 3. Files.
   make_folder(folder);
   const OcclusionIndex index(scene);
-  const std::vector<int> at_vertex =
-      busiest(skeleton, [](const SkeletonArc& a) { return a.vertex; });
-  const std::vector<RuledStrip> strips = strips_of(scene, index, skeleton, at_vertex);
+  const Highlights highlights = find_highlights(scene, skeleton);
+  const std::vector<RuledStrip> strips =
+      strips_of(scene, index, skeleton, highlights.vertex);
   std::vector<std::string> files;
   const fs::path vtk = options.vtk.empty() ? folder / "vtk" : fs::path(options.vtk);
   for (const std::string& name : write_vtk(vtk, scene, {&skeleton, &strips})) {
@@ -242,7 +303,7 @@ ExitStatus run(const AnalyseOptions& options) {
   }
   log.done("VTK files");
   std::vector<PagePicture> pictures =
-      draw_pictures(scene, index, skeleton, request.region);
+      draw_pictures(scene, index, skeleton, highlights, request.region);
   for (const PagePicture& picture : pictures) {
     write_whole(folder / picture.file, picture.png);
     files.push_back(picture.file);

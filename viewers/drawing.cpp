@@ -29,6 +29,14 @@ double area_of(const Scene& scene, int face) {
   return 0.5 * twice.norm();
 }
 
+/// Some point of the object lies in the plane of that axis at that coordinate.
+bool touches_plane(const Scene& scene, const Object& object, int axis, double at) {
+  return std::ranges::any_of(object.faces, [&](int f) {
+    return std::ranges::any_of(scene.face_points(f),
+                               [&](int p) { return scene.point(p)[axis] == at; });
+  });
+}
+
 /// The faces left when the walls between the eye and the scene are taken away.
 std::vector<char> faces_shown(const Scene& scene, const Point& towards_eye) {
   const auto [low, high] = scene.bounds();
@@ -56,8 +64,10 @@ std::vector<char> faces_shown(const Scene& scene, const Point& towards_eye) {
     const double side = extent.prod() / extent[axis];
     if (std::max(facing_out, facing_in) < 0.5 * side) continue;
     for (const Object& object : scene.objects()) {
-      if (object.closed &&
-          !std::ranges::all_of(object.faces, [&](int f) { return near[f]; })) {
+      // A closed thing goes whole or stays; a shelf on the wall stays.
+      if (object.closed && (!std::ranges::all_of(object.faces, [&](int f) {
+            return near[f];
+          }) || !touches_plane(scene, object, axis, wall))) {
         continue;
       }
       for (const int f : object.faces) {
@@ -70,6 +80,7 @@ std::vector<char> faces_shown(const Scene& scene, const Point& towards_eye) {
 
 Drawing draw_faces(const Scene& scene, const std::vector<char>& shown) {
   Drawing drawing;
+  const std::vector<Colour> colours = object_colours(scene);
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
     if (!shown[f]) continue;
     const Face& face = scene.faces()[f];
@@ -78,7 +89,7 @@ Drawing draw_faces(const Scene& scene, const std::vector<char>& shown) {
     for (std::size_t i = 2; i < ids.size(); ++i) {
       drawing.triangles.push_back(
           {{scene.point(ids[0]), scene.point(ids[i - 1]), scene.point(ids[i])},
-           colour_of_object(face.object),
+           colours[face.object],
            closed,
            face.facet});
     }
@@ -163,6 +174,25 @@ double entropy(const std::vector<int>& ids) {
 
 }  // namespace
 
+std::vector<char> envelope_objects(const Scene& scene) {
+  const auto [low, high] = scene.bounds();
+  std::vector<char> envelope;
+  for (const Object& object : scene.objects()) {
+    Point from = high, to = low;
+    for (const int f : object.faces) {
+      for (const int p : scene.face_points(f)) {
+        from = from.cwiseMin(scene.point(p));
+        to = to.cwiseMax(scene.point(p));
+      }
+    }
+    const bool reaches =
+        (from.array() == low.array()).any() || (to.array() == high.array()).any();
+    const bool thin = ((to - from).array() <= 0.1 * (high - low).array()).any();
+    envelope.push_back(reaches && thin ? 1 : 0);
+  }
+  return envelope;
+}
+
 int guess_up_axis(const Scene& scene) {
   const Point extent = scene.bounds()[1] - scene.bounds()[0];
   int thinnest = 0;
@@ -210,6 +240,10 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
   const std::vector<char> shown = faces_shown(scene, best);
   view.camera = frame(scene, best, up, aspect);
   view.drawing = draw_faces(scene, shown);
+  view.polygon_shown.assign(scene.soup().polygons.size(), 0);
+  for (std::size_t f = 0; f < shown.size(); ++f) {
+    if (shown[f]) view.polygon_shown[scene.faces()[f].source] = 1;
+  }
   add_edges(view.drawing, scene, shown, view.camera.eye);
   return view;
 }
@@ -230,20 +264,40 @@ void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
 
 RuledStrip ruled_strip(const Scene& scene, const OcclusionIndex& index,
                        const Skeleton& skeleton, int arc, int count) {
-  RuledStrip strip{arc, {}};
   const SkeletonArc& a = skeleton.arcs[arc];
+  struct Rung {
+    double t;  // 0 at the arc's one end, 1 at the other
+    FarEnds ends;
+  };
+  const auto rung_at = [&](double t) -> std::optional<Rung> {
+    const double s = a.range[0] + t * (a.range[1] - a.range[0]);
+    if (auto ends = far_ends(scene, index, a, s)) return Rung{t, std::move(*ends)};
+    return std::nullopt;
+  };
+  // The two rungs next to the change between x and y, to a picture's accuracy.
+  const auto add_change = [&](RuledStrip& strip, Rung x, Rung y) {
+    for (int step = 0; step < 12; ++step) {
+      std::optional<Rung> middle = rung_at(0.5 * (x.t + y.t));
+      if (!middle) break;
+      (middle->ends.faces == x.ends.faces ? x : y) = std::move(*middle);
+    }
+    strip.rungs.push_back(std::move(x.ends));
+    strip.rungs.push_back(std::move(y.ends));
+  };
+  RuledStrip strip{arc, {}};
+  std::optional<Rung> last;
   for (int i = 0; i < count; ++i) {
     // The ends of the open interval are not part of the arc: stay a little inside.
-    const double t = (i + 1e-3) / (count - 1 + 2e-3);
-    const double s = a.range[0] + t * (a.range[1] - a.range[0]);
-    if (std::optional<FarEnds> ends = far_ends(scene, index, a, s)) {
-      strip.rungs.push_back(std::move(*ends));
-    }
+    std::optional<Rung> rung = rung_at((i + 1e-3) / (count - 1 + 2e-3));
+    if (!rung) continue;
+    if (last && last->ends.faces != rung->ends.faces) add_change(strip, *last, *rung);
+    strip.rungs.push_back(rung->ends);
+    last = std::move(rung);
   }
   return strip;
 }
 
-void add_strip(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
+void add_strip(SceneView& view, const Scene& scene, const Skeleton& skeleton,
                const RuledStrip& strip, float opacity) {
   const SkeletonArc& arc = skeleton.arcs[strip.arc];
   const Colour colour = colour_of_kind(kind_name(arc));
@@ -254,9 +308,13 @@ void add_strip(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
     for (int end = 0; end < 2; ++end) {
       if (a.faces[end] != b.faces[end]) continue;
       // Both halves are fans from the vertex, through which all lines of the arc pass.
-      drawing.veils.push_back({{v, a.points[end], b.points[end]}, colour, opacity});
-      if (!a.faces[end].empty()) {
-        drawing.strokes.push_back(
+      const std::vector<int>& faces = a.faces[end];
+      const bool lands = std::ranges::any_of(
+          faces, [&](int polygon) { return view.polygon_shown[polygon] != 0; });
+      view.drawing.veils.push_back(
+          {{v, a.points[end], b.points[end]}, colour, lands ? opacity : 0.3F * opacity});
+      if (lands) {
+        view.drawing.strokes.push_back(
             {{a.points[end], b.points[end]}, colour, 2.2F, std::min(1.0F, 9 * opacity)});
       }
     }

@@ -14,6 +14,11 @@ namespace sightline::viewers {
 /// OBJ and glTF files and z for others.
 [[nodiscard]] int guess_up_axis(const Scene& scene);
 
+/// True for objects that enclose or carry the others (walls, ground): thin in one
+/// direction, by a tenth of the scene, and reaching the scene's bounding box.  Only for
+/// looks.
+[[nodiscard]] std::vector<char> envelope_objects(const Scene& scene);
+
 struct ViewOptions {
   int up_axis = -1;  ///< 0, 1, 2; -1 to guess
   int width = 1400, height = 980;
@@ -23,6 +28,7 @@ struct ViewOptions {
 struct SceneView {
   Camera camera;
   Drawing drawing;
+  std::vector<char> polygon_shown;  ///< by polygon of the file: not left away
 };
 
 /// Every face with its edges, from the direction in which most is seen (the largest
@@ -42,13 +48,14 @@ struct RuledStrip {
   std::vector<FarEnds> rungs;
 };
 
-/// Sampled at `count` parameters of the arc, at least 2.
+/// Sampled at `count` parameters of the arc, at least 2, and on both sides of every
+/// change of far end that these samples show.
 [[nodiscard]] RuledStrip ruled_strip(const Scene& scene, const OcclusionIndex& index,
                                      const Skeleton& skeleton, int arc, int count);
 
-/// The strip as veils, and where it meets the scene as strokes: the curves at which
-/// a change of view could be noticed.
-void add_strip(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
+/// The strip as veils, and as strokes where it ends on a face that is shown: where the
+/// shadow edges of a light in the vertex would lie.
+void add_strip(SceneView& view, const Scene& scene, const Skeleton& skeleton,
                const RuledStrip& strip, float opacity);
 
 /// The segments between the outermost contacts of the nodes listed.

@@ -38,7 +38,7 @@ std::optional<FarEnds> far_ends_between(const Scene& scene, const OcclusionIndex
   const std::optional<FreeSegment> free = index.maximal_free_segment(a, b);
   if (!free) return std::nullopt;
   const double length = (b - a).norm();
-  const double beyond = (scene.bounds()[1] - scene.bounds()[0]).norm() / length;
+  const double beyond = 0.2 * (scene.bounds()[1] - scene.bounds()[0]).norm() / length;
   const double from = std::isfinite(free->from) ? free->from : -beyond;
   const double to = std::isfinite(free->to) ? free->to : 1 + beyond;
   FarEnds ends;

@@ -28,7 +28,7 @@ figure { margin:14px 0; background:var(--card); border:1px solid var(--line);
   border-radius:10px; overflow:hidden; }
 figure img { display:block; width:100%; height:auto; }
 figcaption { padding:10px 16px 12px; border-top:1px solid var(--line); }
-.pair { display:grid; grid-template-columns:repeat(auto-fit,minmax(440px,1fr)); gap:14px; }
+.pair { display:grid; grid-template-columns:repeat(auto-fit,minmax(320px,1fr)); gap:14px; }
 .pair figure { margin:0; }
 table { border-collapse:collapse; width:100%; background:var(--card);
   border:1px solid var(--line); border-radius:10px; overflow:hidden; }
@@ -49,12 +49,14 @@ code { font-size:13px; background:#e9edf3; padding:1px 5px; border-radius:4px; }
 
 /// 12345678 -> "12 345 678", with thin spaces.
 std::string grouped(std::int64_t n) {
-  std::string digits = std::to_string(n < 0 ? -n : n), out;
+  const std::string digits = std::to_string(n);
+  std::string out;
   for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) out += "&#8239;";
+    const bool between_digits = i > 0 && digits[i - 1] != '-';
+    if (between_digits && (digits.size() - i) % 3 == 0) out += "&#8239;";
     out += digits[i];
   }
-  return n < 0 ? "-" + out : out;
+  return out;
 }
 
 std::string seconds_text(double s) {

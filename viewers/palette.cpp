@@ -4,7 +4,10 @@
 
 #include <array>
 #include <cmath>
+#include <map>
 #include <utility>
+
+#include "viewers/drawing.h"
 
 namespace sightline::viewers {
 
@@ -32,18 +35,31 @@ std::string hex(const Colour& c) {
   return fmt::format("#{:02x}{:02x}{:02x}", byte(c.red), byte(c.green), byte(c.blue));
 }
 
-Colour colour_of_object(int object) {
-  static constexpr std::array<Colour, 10> kTones{{{0.91F, 0.89F, 0.85F},
-                                                  {0.82F, 0.72F, 0.58F},
-                                                  {0.72F, 0.80F, 0.82F},
-                                                  {0.87F, 0.76F, 0.70F},
-                                                  {0.75F, 0.81F, 0.69F},
-                                                  {0.80F, 0.75F, 0.84F},
-                                                  {0.90F, 0.84F, 0.67F},
-                                                  {0.70F, 0.76F, 0.86F},
-                                                  {0.84F, 0.70F, 0.66F},
-                                                  {0.78F, 0.78F, 0.74F}}};
-  return kTones[static_cast<std::size_t>(object) % kTones.size()];
+std::vector<Colour> object_colours(const Scene& scene) {
+  static constexpr std::array<Colour, 9> kTones{{{0.80F, 0.62F, 0.42F},
+                                                 {0.46F, 0.62F, 0.74F},
+                                                 {0.85F, 0.56F, 0.46F},
+                                                 {0.55F, 0.68F, 0.52F},
+                                                 {0.66F, 0.58F, 0.76F},
+                                                 {0.88F, 0.76F, 0.46F},
+                                                 {0.48F, 0.68F, 0.68F},
+                                                 {0.82F, 0.60F, 0.68F},
+                                                 {0.68F, 0.68F, 0.62F}}};
+  constexpr Colour kNeutral{0.93F, 0.915F, 0.885F};
+  const std::vector<char> envelope = envelope_objects(scene);
+  std::map<std::string, std::size_t> words;
+  std::vector<Colour> colours;
+  for (std::size_t o = 0; o < scene.objects().size(); ++o) {
+    const Object& object = scene.objects()[o];
+    if (envelope[o] && scene.objects().size() > 1) {
+      colours.push_back(kNeutral);
+      continue;
+    }
+    const std::string word = object.name.substr(0, object.name.find('_'));
+    const std::size_t tone = words.try_emplace(word, words.size()).first->second;
+    colours.push_back(kTones[tone % kTones.size()]);
+  }
+  return colours;
 }
 
 }  // namespace sightline::viewers

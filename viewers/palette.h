@@ -15,7 +15,8 @@ namespace sightline::viewers {
 /// "#rrggbb".
 [[nodiscard]] std::string hex(const Colour& colour);
 
-/// Quiet tones for objects, well apart for neighbours in the list.
-[[nodiscard]] Colour colour_of_object(int object);
+/// A tone for every object: neutral for walls and ground (envelope_objects), otherwise
+/// one per first word of the name, so that the parts of a table match.
+[[nodiscard]] std::vector<Colour> object_colours(const Scene& scene);
 
 }  // namespace sightline::viewers

@@ -41,6 +41,12 @@ class Projection {
     const double w = 1 / e.z();
     return {half_width_ + focal_ * e.x() * w, half_height_ - focal_ * e.y() * w, w};
   }
+  [[nodiscard]] Point from_screen(const ScreenPoint& p) const {
+    return {(p.x - half_width_) / (focal_ * p.w), (half_height_ - p.y) / (focal_ * p.w),
+            1 / p.w};
+  }
+  /// Pixels per unit of length at depth 1.
+  [[nodiscard]] double focal() const { return focal_; }
   [[nodiscard]] double near() const { return near_; }
   [[nodiscard]] const Point& eye() const { return eye_; }
   [[nodiscard]] const Point& forward() const { return forward_; }
@@ -66,19 +72,29 @@ std::vector<Point> clip_near(std::span<const Point> polygon, double near) {
   return kept;
 }
 
-/// Calls plot(index, w) for every sample of a width x height raster inside a triangle.
+/// Rows `top` to `bottom` - 1 of samples, stored row after row.
+struct Raster {
+  int width, top, bottom;
+  [[nodiscard]] std::size_t size() const {
+    return static_cast<std::size_t>(width) * (bottom - top);
+  }
+};
+
+/// Calls plot(index, w) for every sample of the raster inside a triangle.
 template <typename Plot>
 void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint& c,
-                   int width, int height, const Plot& plot) {
+                   const Raster& raster, const Plot& plot) {
   const double area = (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
   if (!(std::abs(area) > 0) || !std::isfinite(area)) return;
-  const auto clamp_to = [](double v, int limit) {
-    return static_cast<int>(std::clamp(v, 0.0, static_cast<double>(limit)));
+  const auto clamped = [](double v, int low, int high) {
+    return static_cast<int>(
+        std::clamp(v, static_cast<double>(low), static_cast<double>(high)));
   };
-  const int x0 = clamp_to(std::floor(std::min({a.x, b.x, c.x})), width);
-  const int x1 = clamp_to(std::ceil(std::max({a.x, b.x, c.x})), width);
-  const int y0 = clamp_to(std::floor(std::min({a.y, b.y, c.y})), height);
-  const int y1 = clamp_to(std::ceil(std::max({a.y, b.y, c.y})), height);
+  const int x0 = clamped(std::floor(std::min({a.x, b.x, c.x})), 0, raster.width);
+  const int x1 = clamped(std::ceil(std::max({a.x, b.x, c.x})), 0, raster.width);
+  const int y0 =
+      clamped(std::floor(std::min({a.y, b.y, c.y})), raster.top, raster.bottom);
+  const int y1 = clamped(std::ceil(std::max({a.y, b.y, c.y})), raster.top, raster.bottom);
   const double wx = ((b.w - a.w) * (c.y - a.y) - (c.w - a.w) * (b.y - a.y)) / area;
   const double wy = ((c.w - a.w) * (b.x - a.x) - (b.w - a.w) * (c.x - a.x)) / area;
   const ScreenPoint* corner[4] = {&a, &b, &c, &a};
@@ -107,20 +123,21 @@ void fill_triangle(const ScreenPoint& a, const ScreenPoint& b, const ScreenPoint
     const int last = std::min(x1 - 1, static_cast<int>(std::floor(to)));
     for (int x = first; x <= last; ++x) {
       const double w = a.w + wx * (x + 0.5 - a.x) + wy * (cy - a.y);
-      plot(static_cast<std::size_t>(y) * width + x, static_cast<float>(w));
+      plot(static_cast<std::size_t>(y - raster.top) * raster.width + x,
+           static_cast<float>(w));
     }
   }
 }
 
 template <typename Plot>
-void fill_polygon(const Projection& projection, std::span<const Point> points, int width,
-                  int height, const Plot& plot) {
+void fill_polygon(const Projection& projection, std::span<const Point> points,
+                  const Raster& raster, const Plot& plot) {
   std::vector<Point> eye;
   for (const Point& p : points) eye.push_back(projection.to_eye(p));
   eye = clip_near(eye, projection.near());
   for (std::size_t i = 2; i < eye.size(); ++i) {
     fill_triangle(projection.to_screen(eye[0]), projection.to_screen(eye[i - 1]),
-                  projection.to_screen(eye[i]), width, height, plot);
+                  projection.to_screen(eye[i]), raster, plot);
   }
 }
 
@@ -140,79 +157,81 @@ Colour shade(const PaintedTriangle& t, const Projection& projection, const Point
       (0.9 * up - 0.35 * projection.forward() - 0.55 * projection.right()).normalized();
   const Point fill =
       (0.2 * up - 0.6 * projection.forward() + 0.8 * projection.right()).normalized();
-  const double light = 0.46 + 0.12 * normal.dot(up) +
-                       0.42 * std::max(0.0, normal.dot(key)) +
-                       0.16 * std::max(0.0, normal.dot(fill));
+  const double light = 0.6 + 0.09 * normal.dot(up) +
+                       0.33 * std::max(0.0, normal.dot(key)) +
+                       0.12 * std::max(0.0, normal.dot(fill));
   const auto lit = [&](float c) { return std::min(1.0F, c * static_cast<float>(light)); };
   return {lit(t.colour.red), lit(t.colour.green), lit(t.colour.blue)};
 }
 
-/// How much of the sky each sample sees, judged from the depth buffer: nearer samples
-/// around it shut it out, unless they are so much nearer that they are another thing.
-std::vector<float> openness(const std::vector<float>& depth_w, int width, int height,
-                            double reach_pixels, double reach_depth) {
-  std::vector<float> open(depth_w.size(), 1.0F);
-  constexpr int kDirections = 12, kSteps = 4;
+/// What a pixel of the coarse raster shows.
+struct Surface {
+  Point position;  ///< eye coordinates
+  Point normal;    ///< towards the eye; zero for the background
+};
+
+/// How much of the sky each pixel sees, judged from what lies around it on the picture:
+/// the estimator of McGuire, Osman, Bukowski and Hennessy, "The Alchemy Screen-Space
+/// Ambient Obscurance Algorithm", 2011, equation 10, with a fixed 4 x 4 pattern of
+/// spirals so that the same picture comes out every time.
+std::vector<float> openness(const std::vector<Surface>& surfaces, int width, int height,
+                            double reach, double pixels_per_unit) {
+  std::vector<float> open(surfaces.size(), 1.0F);
+  constexpr int kSamples = 28;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + x;
-      if (depth_w[i] <= 0) continue;
-      const double z = 1.0 / depth_w[i];
-      // A fixed 4 x 4 pattern of rotations, so that the noise is fine and repeatable.
-      const double turn = ((x & 3) * 4 + (y & 3)) * (2 * M_PI / kDirections / 16);
+      const Surface& here = surfaces[i];
+      if (here.normal.isZero()) continue;
+      const double radius = reach * pixels_per_unit / here.position.z();
+      const double turn = ((x & 3) * 4 + (y & 3)) * (2 * M_PI / 16);
       double shut = 0;
-      for (int d = 0; d < kDirections; ++d) {
-        const double angle = turn + d * 2 * M_PI / kDirections;
-        // Opposite samples cancel on a slanted plane: only what sticks out counts.
-        double bend = 0;
-        for (int s = 1; s <= kSteps; ++s) {
-          const double r = reach_pixels * s * s / (kSteps * kSteps);
-          const int dx = static_cast<int>(std::lround(r * std::cos(angle)));
-          const int dy = static_cast<int>(std::lround(r * std::sin(angle)));
-          if (dx == 0 && dy == 0) continue;
-          const auto w_at = [&](int px, int py) {
-            px = std::clamp(px, 0, width - 1);
-            py = std::clamp(py, 0, height - 1);
-            return depth_w[static_cast<std::size_t>(py) * width + px];
-          };
-          const double w1 = w_at(x + dx, y + dy), w2 = w_at(x - dx, y - dy);
-          if (w1 <= 0 || w2 <= 0) continue;
-          // 1/z is linear over a plane's image, so this vanishes on planes.
-          const double rise = (0.5 * (w1 + w2) - depth_w[i]) * z * z;
-          if (rise > 0 && rise < reach_depth) {
-            bend = std::max(bend, rise / (reach_depth * s / kSteps));
-          }
-        }
-        shut += std::min(1.0, 2.2 * bend);
+      for (int k = 0; k < kSamples; ++k) {
+        const double r = radius * (k + 0.5) / kSamples;
+        const double angle = turn + k * 2.399963;  // the golden angle
+        const int px = x + static_cast<int>(std::lround(r * std::cos(angle)));
+        const int py = y + static_cast<int>(std::lround(r * std::sin(angle)));
+        if (px < 0 || py < 0 || px >= width || py >= height) continue;
+        const Surface& there = surfaces[static_cast<std::size_t>(py) * width + px];
+        if (there.normal.isZero()) continue;
+        const Point v = there.position - here.position;
+        const double squared = v.squaredNorm();
+        const double fade = std::max(0.0, 1 - squared / (reach * reach));
+        shut += fade * std::max(0.0, v.dot(here.normal) - 1e-3 * here.position.z()) /
+                (squared + 1e-4 * reach * reach);
       }
-      open[i] = static_cast<float>(1 - 0.42 * shut / kDirections);
+      open[i] = static_cast<float>(std::max(0.35, 1 - 1.5 * reach / kSamples * shut));
     }
   }
   return open;
 }
 
-std::vector<float> blurred(const std::vector<float>& values, int width, int height,
-                           int radius) {
-  std::vector<float> rows(values.size()), out(values.size());
-  for (int y = 0; y < height; ++y) {
-    const std::size_t row = static_cast<std::size_t>(y) * width;
-    for (int x = 0; x < width; ++x) {
-      float sum = 0;
-      for (int k = -radius; k <= radius; ++k) {
-        sum += values[row + std::clamp(x + k, 0, width - 1)];
-      }
-      rows[row + x] = sum / static_cast<float>(2 * radius + 1);
-    }
-  }
+/// The mean over the 4 x 4 pattern, among pixels of nearly the same plane.
+std::vector<float> smoothed(const std::vector<float>& values,
+                            const std::vector<Surface>& surfaces, int width, int height,
+                            double reach) {
+  std::vector<float> out(values.size(), 1.0F);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      float sum = 0;
-      for (int k = -radius; k <= radius; ++k) {
-        const int yy = std::clamp(y + k, 0, height - 1);
-        sum += rows[static_cast<std::size_t>(yy) * width + x];
+      const std::size_t i = static_cast<std::size_t>(y) * width + x;
+      const Surface& here = surfaces[i];
+      if (here.normal.isZero()) continue;
+      float sum = 0, count = 0;
+      for (int dy = -4; dy < 4; ++dy) {
+        for (int dx = -4; dx < 4; ++dx) {
+          const int px = x + dx, py = y + dy;
+          if (px < 0 || py < 0 || px >= width || py >= height) continue;
+          const std::size_t k = static_cast<std::size_t>(py) * width + px;
+          const Surface& there = surfaces[k];
+          if (there.normal.dot(here.normal) < 0.9 ||
+              std::abs(here.normal.dot(there.position - here.position)) > 0.05 * reach) {
+            continue;
+          }
+          sum += values[k];
+          count += 1;
+        }
       }
-      out[static_cast<std::size_t>(y) * width + x] =
-          sum / static_cast<float>(2 * radius + 1);
+      out[i] = sum / std::max(count, 1.0F);
     }
   }
   return out;
@@ -221,7 +240,7 @@ std::vector<float> blurred(const std::vector<float>& values, int width, int heig
 /// The stroke as a thin quad facing the camera, its parts before the near plane only.
 template <typename Plot>
 void fill_stroke(const Projection& projection, const Stroke& stroke, double half_width,
-                 int width, int height, const Plot& plot) {
+                 const Raster& raster, const Plot& plot) {
   Point a = projection.to_eye(stroke.points[0]);
   Point b = projection.to_eye(stroke.points[1]);
   if (a.z() < projection.near() && b.z() < projection.near()) return;
@@ -240,8 +259,33 @@ void fill_stroke(const Projection& projection, const Stroke& stroke, double half
                                  {p.x + uy - 0.5 * ux, p.y - ux - 0.5 * uy, p.w},
                                  {q.x + uy + 0.5 * ux, q.y - ux + 0.5 * uy, q.w},
                                  {q.x - uy + 0.5 * ux, q.y + ux + 0.5 * uy, q.w}};
-  fill_triangle(corner[0], corner[1], corner[2], width, height, plot);
-  fill_triangle(corner[0], corner[2], corner[3], width, height, plot);
+  fill_triangle(corner[0], corner[1], corner[2], raster, plot);
+  fill_triangle(corner[0], corner[2], corner[3], raster, plot);
+}
+
+/// What each pixel's centre shows.
+std::vector<Surface> visible_surfaces(const Drawing& drawing,
+                                      const Projection& projection, int width,
+                                      int height) {
+  const std::size_t size = static_cast<std::size_t>(width) * height;
+  std::vector<Surface> surfaces(size, {Point::Zero(), Point::Zero()});
+  std::vector<float> nearest(size, 0.0F);
+  for (const PaintedTriangle& t : drawing.triangles) {
+    if (is_culled(t, projection.eye())) continue;
+    const Point a = projection.to_eye(t.points[0]);
+    Point normal = (projection.to_eye(t.points[1]) - a)
+                       .cross(projection.to_eye(t.points[2]) - a)
+                       .normalized();
+    if (normal.dot(a) > 0) normal = -normal;
+    fill_polygon(projection, t.points, {width, 0, height}, [&](std::size_t i, float w) {
+      if (w <= nearest[i]) return;
+      nearest[i] = w;
+      const double x = static_cast<double>(i % width) + 0.5;
+      const double y = static_cast<double>(i / width) + 0.5;
+      surfaces[i] = {projection.from_screen({x, y, w}), normal};
+    });
+  }
+  return surfaces;
 }
 
 struct Sample {
@@ -254,122 +298,171 @@ void blend(Sample& under, const Colour& over, float opacity) {
   under.blue += opacity * (over.blue - under.blue);
 }
 
+std::uint8_t to_byte(float v) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(v, 0.0F, 1.0F)));
+}
+
+/// Veils over some rows of samples.  Each sample keeps the product of what passes and the
+/// mean colour, so that the order does not matter.
+void add_veils(std::span<const VeilTriangle> veils, const Projection& projection,
+               const Raster& raster, std::span<const float> nearest,
+               std::span<Sample> samples) {
+  struct Veil {
+    float red = 0, green = 0, blue = 0, weight = 0, passes = 1;
+  };
+  if (veils.empty()) return;
+  std::vector<Veil> sums(raster.size());
+  for (const VeilTriangle& t : veils) {
+    fill_polygon(projection, t.points, raster, [&](std::size_t i, float w) {
+      // The tolerance lets veils that lie on a face show; it is a matter of looks.
+      if (w * 1.0005F < nearest[i]) return;
+      Veil& v = sums[i];
+      v.red += t.opacity * t.colour.red;
+      v.green += t.opacity * t.colour.green;
+      v.blue += t.opacity * t.colour.blue;
+      v.weight += t.opacity;
+      v.passes *= 1 - t.opacity;
+    });
+  }
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const Veil& v = sums[i];
+    if (v.weight <= 0) continue;
+    blend(samples[i], {v.red / v.weight, v.green / v.weight, v.blue / v.weight},
+          1 - v.passes);
+  }
+}
+
 }  // namespace
 
-Image render(const Drawing& drawing, const Camera& camera,
-             const PictureOptions& options) {
-  const int n = std::max(1, options.samples);
-  const int width = options.width * n, height = options.height * n;
-  const std::size_t size = static_cast<std::size_t>(width) * height;
-  const Projection projection(camera, width, height);
-  const Point up = camera.up.normalized();
+struct Canvas::Impl {
+  PictureOptions options;
+  int scale, width, height;  // samples per pixel side; samples
+  Projection projection;
+  std::vector<float> nearest;  // w of the nearest triangle, 0 for none
+  std::vector<std::uint8_t> rgb;
 
-  // 1. Background and opaque triangles.
-  std::vector<Sample> samples(size);
-  std::vector<float> nearest(size, 0.0F);
+  Impl(const Camera& camera, const PictureOptions& o)
+      : options(o),
+        scale(std::max(1, o.samples)),
+        width(o.width * scale),
+        height(o.height * scale),
+        projection(camera, width, height) {}
+
+  void draw_background();
+  void draw_triangles(const Drawing& drawing, const Point& up);
+  void darken_crevices(const Drawing& drawing, const Camera& camera);
+};
+
+void Canvas::Impl::draw_background() {
+  rgb.reserve(3 * nearest.size());
   for (int y = 0; y < height; ++y) {
     const float t = static_cast<float>(y) / static_cast<float>(height);
     const Colour &top = options.background_top, &bottom = options.background_bottom;
-    const Sample sky{top.red + t * (bottom.red - top.red),
-                     top.green + t * (bottom.green - top.green),
-                     top.blue + t * (bottom.blue - top.blue)};
-    std::fill_n(samples.begin() + static_cast<std::ptrdiff_t>(y) * width, width, sky);
+    const std::array<std::uint8_t, 3> sky{
+        to_byte(top.red + t * (bottom.red - top.red)),
+        to_byte(top.green + t * (bottom.green - top.green)),
+        to_byte(top.blue + t * (bottom.blue - top.blue))};
+    for (int x = 0; x < width; ++x) rgb.insert(rgb.end(), sky.begin(), sky.end());
   }
+}
+
+void Canvas::Impl::draw_triangles(const Drawing& drawing, const Point& up) {
   for (const PaintedTriangle& t : drawing.triangles) {
     if (is_culled(t, projection.eye())) continue;
     const Colour c = shade(t, projection, up);
-    fill_polygon(projection, t.points, width, height, [&](std::size_t i, float w) {
+    const std::array<std::uint8_t, 3> paint{to_byte(c.red), to_byte(c.green),
+                                            to_byte(c.blue)};
+    fill_polygon(projection, t.points, {width, 0, height}, [&](std::size_t i, float w) {
       if (w <= nearest[i]) return;
       nearest[i] = w;
-      samples[i] = {c.red, c.green, c.blue};
+      std::copy_n(paint.begin(), 3, rgb.begin() + static_cast<std::ptrdiff_t>(3 * i));
     });
   }
+}
 
-  // 2. Crevices, on a raster of one sample a pixel.
-  if (options.ambient_occlusion) {
-    std::vector<float> coarse(static_cast<std::size_t>(options.width) * options.height);
-    for (int y = 0; y < options.height; ++y) {
-      for (int x = 0; x < options.width; ++x) {
-        coarse[static_cast<std::size_t>(y) * options.width + x] =
-            nearest[static_cast<std::size_t>(y * n + n / 2) * width + x * n + n / 2];
-      }
-    }
-    const double distance = (camera.target - camera.eye).norm();
-    const std::vector<float> open =
-        blurred(openness(coarse, options.width, options.height, 0.045 * options.height,
-                         0.045 * distance),
-                options.width, options.height, 2);
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const std::size_t i = static_cast<std::size_t>(y) * width + x;
-        if (nearest[i] <= 0) continue;
-        const float o = open[static_cast<std::size_t>(y / n) * options.width + x / n];
-        samples[i].red *= o;
-        samples[i].green *= o;
-        samples[i].blue *= o;
+/// On a raster of one sample a pixel.
+void Canvas::Impl::darken_crevices(const Drawing& drawing, const Camera& camera) {
+  const Projection coarse(camera, options.width, options.height);
+  const std::vector<Surface> surfaces =
+      visible_surfaces(drawing, coarse, options.width, options.height);
+  const double reach = 0.055 * (camera.target - camera.eye).norm();
+  const std::vector<float> open =
+      smoothed(openness(surfaces, options.width, options.height, reach, coarse.focal()),
+               surfaces, options.width, options.height, reach);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const std::size_t i = static_cast<std::size_t>(y) * width + x;
+      if (nearest[i] <= 0) continue;
+      const float o =
+          open[static_cast<std::size_t>(y / scale) * options.width + x / scale];
+      for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
+        rgb[k] = static_cast<std::uint8_t>(std::lround(o * static_cast<float>(rgb[k])));
       }
     }
   }
+}
 
-  // 3. Veils: each sample keeps the product of what passes and the mean colour, so that
-  // the order does not matter.
-  if (!drawing.veils.empty()) {
-    struct Veil {
-      float red = 0, green = 0, blue = 0, weight = 0, passes = 1;
-    };
-    std::vector<Veil> veil(size);
-    for (const VeilTriangle& t : drawing.veils) {
-      fill_polygon(projection, t.points, width, height, [&](std::size_t i, float w) {
-        // The tolerance lets veils that lie on a face show; it is a matter of looks.
-        if (w * 1.0005F < nearest[i]) return;
-        Veil& v = veil[i];
-        v.red += t.opacity * t.colour.red;
-        v.green += t.opacity * t.colour.green;
-        v.blue += t.opacity * t.colour.blue;
-        v.weight += t.opacity;
-        v.passes *= 1 - t.opacity;
-      });
+Canvas::Canvas(const Drawing& drawing, const Camera& camera,
+               const PictureOptions& options)
+    : impl_(std::make_unique<Impl>(camera, options)) {
+  impl_->nearest.assign(static_cast<std::size_t>(impl_->width) * impl_->height, 0.0F);
+  impl_->draw_background();
+  impl_->draw_triangles(drawing, camera.up.normalized());
+  if (options.ambient_occlusion) impl_->darken_crevices(drawing, camera);
+}
+
+Canvas::~Canvas() = default;
+
+Image Canvas::picture(const Drawing& marks) const {
+  const Impl& base = *impl_;
+  const int n = base.scale;
+  Image image{base.options.width, base.options.height, {}};
+  image.rgb.reserve(static_cast<std::size_t>(image.width) * image.height * 3);
+  // A band of rows at a time, so that the many numbers a sample takes here stay few.
+  constexpr int kBand = 96;
+  for (int band = 0; band < image.height; band += kBand) {
+    const int rows = std::min(kBand, image.height - band);
+    const Raster raster{base.width, band * n, (band + rows) * n};
+    const std::size_t first = static_cast<std::size_t>(raster.top) * base.width;
+    const std::span<const float> nearest(base.nearest.data() + first, raster.size());
+    std::vector<Sample> samples(raster.size());
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const std::uint8_t* c = base.rgb.data() + 3 * (first + i);
+      samples[i] = {static_cast<float>(c[0]) / 255, static_cast<float>(c[1]) / 255,
+                    static_cast<float>(c[2]) / 255};
     }
-    for (std::size_t i = 0; i < size; ++i) {
-      const Veil& v = veil[i];
-      if (v.weight <= 0) continue;
-      blend(samples[i], {v.red / v.weight, v.green / v.weight, v.blue / v.weight},
-            1 - v.passes);
+    add_veils(marks.veils, base.projection, raster, nearest, samples);
+    for (const Stroke& s : marks.strokes) {
+      fill_stroke(
+          base.projection, s, 0.5 * s.width * n, raster, [&](std::size_t i, float w) {
+            const float opacity = w * 1.002F >= nearest[i] ? s.opacity : s.hidden_opacity;
+            if (opacity > 0) blend(samples[i], s.colour, opacity);
+          });
     }
-  }
-
-  // 4. Strokes in the order given.
-  for (const Stroke& s : drawing.strokes) {
-    const double half_width = 0.5 * s.width * n;
-    fill_stroke(projection, s, half_width, width, height, [&](std::size_t i, float w) {
-      const float opacity = w * 1.002F >= nearest[i] ? s.opacity : s.hidden_opacity;
-      if (opacity > 0) blend(samples[i], s.colour, opacity);
-    });
-  }
-
-  // 5. Average the samples of each pixel.
-  Image image{options.width, options.height, {}};
-  image.rgb.reserve(static_cast<std::size_t>(options.width) * options.height * 3);
-  for (int y = 0; y < options.height; ++y) {
-    for (int x = 0; x < options.width; ++x) {
-      Sample sum{0, 0, 0};
-      for (int j = 0; j < n; ++j) {
-        for (int i = 0; i < n; ++i) {
-          const Sample& s =
-              samples[static_cast<std::size_t>(y * n + j) * width + x * n + i];
-          sum.red += s.red;
-          sum.green += s.green;
-          sum.blue += s.blue;
+    for (int y = 0; y < rows; ++y) {
+      for (int x = 0; x < image.width; ++x) {
+        Sample sum{0, 0, 0};
+        for (int j = 0; j < n; ++j) {
+          for (int i = 0; i < n; ++i) {
+            const Sample& s =
+                samples[static_cast<std::size_t>(y * n + j) * base.width + x * n + i];
+            sum.red += s.red;
+            sum.green += s.green;
+            sum.blue += s.blue;
+          }
         }
-      }
-      for (const float c : {sum.red, sum.green, sum.blue}) {
-        const float mean = c / static_cast<float>(n * n);
-        image.rgb.push_back(
-            static_cast<std::uint8_t>(std::lround(255 * std::clamp(mean, 0.0F, 1.0F))));
+        for (const float c : {sum.red, sum.green, sum.blue}) {
+          image.rgb.push_back(to_byte(c / static_cast<float>(n * n)));
+        }
       }
     }
   }
   return image;
+}
+
+Image render(const Drawing& drawing, const Camera& camera,
+             const PictureOptions& options) {
+  return Canvas(drawing, camera, options).picture(drawing);
 }
 
 std::vector<int> visible_ids(const Drawing& drawing, const Camera& camera, int width,
@@ -379,7 +472,7 @@ std::vector<int> visible_ids(const Drawing& drawing, const Camera& camera, int w
   std::vector<float> nearest(ids.size(), 0.0F);
   for (const PaintedTriangle& t : drawing.triangles) {
     if (is_culled(t, projection.eye())) continue;
-    fill_polygon(projection, t.points, width, height, [&](std::size_t i, float w) {
+    fill_polygon(projection, t.points, {width, 0, height}, [&](std::size_t i, float w) {
       if (w <= nearest[i]) return;
       nearest[i] = w;
       ids[i] = t.id;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -69,8 +70,23 @@ struct Image {
   std::vector<std::uint8_t> rgb;  ///< rows from the top, three bytes a pixel
 };
 
-/// Draws with one thread; the same input gives the same bytes.  Triangles that reach
-/// behind the eye are clipped.  Cost: the pixels covered, times samples squared.
+/// Triangles drawn once, for several pictures with different marks on them.  Draws with
+/// one thread; the same input gives the same bytes.  What reaches behind the eye is
+/// clipped.  Cost: the samples covered.
+class Canvas {
+ public:
+  Canvas(const Drawing& drawing, const Camera& camera,
+         const PictureOptions& options = {});
+  ~Canvas();
+  /// The triangles with these veils and strokes, strokes last and in their order.
+  [[nodiscard]] Image picture(const Drawing& marks) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// One picture of everything in the drawing.
 [[nodiscard]] Image render(const Drawing& drawing, const Camera& camera,
                            const PictureOptions& options = {});
 

@@ -114,6 +114,7 @@ class Cells {
 vtkSmartPointer<vtkPolyData> scene_cells(const Scene& scene) {
   Cells cells;
   const PolygonSoup& soup = scene.soup();
+  const std::vector<Colour> colours = object_colours(scene);
   for (const Point& p : soup.vertices) cells.add_point(p);
   std::vector<int> face_of(soup.polygons.size(), -1);
   for (int f = static_cast<int>(scene.faces().size()) - 1; f >= 0; --f) {
@@ -123,7 +124,7 @@ vtkSmartPointer<vtkPolyData> scene_cells(const Scene& scene) {
     const int f = face_of[i];
     const int object = f < 0 ? -1 : scene.faces()[f].object;
     cells.add_polygon({soup.polygons[i].begin(), soup.polygons[i].end()},
-                      colour_of_object(std::max(object, 0)));
+                      colours[std::max(object, 0)]);
     cells.value("polygon", {static_cast<int>(i)});
     cells.value("face", {f});
     cells.value("facet", {f < 0 ? -1 : scene.faces()[f].facet});

@@ -185,8 +185,8 @@ BoxUnion::Judgement BoxUnion::judge(const Point& a, const Point& b) const {
       in_plane =
           in_plane || (direction[i] == 0 && (a[i] == box.min[i] || a[i] == box.max[i]));
     }
-    if (!in_plane && whole->from < whole->to) return {false, result.edge_on};
     result.edge_on = result.edge_on || in_plane;
+    if (!in_plane && whole->from < whole->to) return {false, result.edge_on};
     meetings.push_back(
         {{std::max(whole->from, Number(0)), std::min(whole->to, Number(1))}, &box});
   }
@@ -200,7 +200,7 @@ BoxUnion::Judgement BoxUnion::judge(const Point& a, const Point& b) const {
       contact.to = std::max(contact.to, meetings[i].range.to);
       touched.push_back(meetings[i]);
     }
-    // A line off the interior of the one box it touches: it can be shifted away.
+    // Off the interior of the one box it touches, a line can be shifted away.
     if (touched.size() == 1) continue;
     result.free = free_line_near(touched, from, direction, contact);
   }
