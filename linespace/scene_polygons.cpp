@@ -95,12 +95,8 @@ bool is_convex(const Projected& polygon) {
   int changes = 0;
   for (int i = 0; i < n; ++i) {
     const int j = (i + 1) % n, k = (i + 2) % n;
-    const Sign turn = polygon.corner(i, j, k);
-    if (turn == Sign::Negative) return false;
-    if ((q[i] < q[j]) != (q[j] < q[k])) {
-      if (turn == Sign::Zero) return false;  // there and back
-      ++changes;
-    }
+    if (polygon.corner(i, j, k) == Sign::Negative) return false;
+    if ((q[i] < q[j]) != (q[j] < q[k])) ++changes;
   }
   return changes == 2;
 }

@@ -124,8 +124,11 @@ void check_invariants(const Scene& scene) {
       const Point &p = scene.point(edge.points[0]), &q = scene.point(edge.points[1]);
       ASSERT_TRUE(collinear(p, q, scene.point(ids[k])));
       ASSERT_TRUE(collinear(p, q, scene.point(ids[(k + 1) % ids.size()])));
+      const Point along = scene.point(ids[(k + 1) % ids.size()]) - scene.point(ids[k]);
+      const bool forward = along.dot(q - p) > 0;
       ASSERT_TRUE(std::any_of(edge.sides.begin(), edge.sides.end(), [&](const auto& s) {
-        return scene.faces()[s.face].facet == scene.faces()[f].facet;
+        return scene.faces()[s.face].facet == scene.faces()[f].facet &&
+               s.forward == forward;
       }));
     }
   }
@@ -479,6 +482,92 @@ TEST(Scene, DefectsNameTheElementsOfTheFile) {
   std::set<std::vector<int>> pairs;
   for (const Defect& d : touching) pairs.insert(d.faces);
   EXPECT_EQ(pairs, (std::set<std::vector<int>>{{0, 1}, {2, 3}, {4, 5}, {10, 11}}));
+}
+
+// Two polygons of one object, whichever comes first, however they turn and lie.
+void expect_touching(const std::vector<Point>& f, const std::vector<Point>& g,
+                     bool expected) {
+  SCOPED_TRACE(::testing::Message() << g[0].transpose() << ", " << g[1].transpose());
+  for (int variant = 0; variant < 24; ++variant) {
+    PolygonSoup s;
+    std::vector<int> faces;
+    for (const auto& polygon : variant & 1 ? std::array{g, f} : std::array{f, g}) {
+      std::vector<int> ring;
+      for (const Point& p : polygon) {
+        ring.push_back(static_cast<int>(s.vertices.size()));
+        const int k = variant % 3;
+        s.vertices.emplace_back(p[k], p[(k + 1) % 3], p[(k + 2) % 3]);
+      }
+      if (variant & (s.polygons.empty() ? 2 : 4)) std::reverse(ring.begin(), ring.end());
+      faces.push_back(static_cast<int>(s.polygons.size()));
+      s.polygons.push_back(ring);
+    }
+    s.groups = {{"both", faces}};
+    EXPECT_EQ(!find_self_touching(Scene(s)).empty(), expected) << variant;
+  }
+}
+
+TEST(FindSelfTouching, TellsSharingFromTouching) {
+  const std::vector<Point> square{{0, 0, 0}, {4, 0, 0}, {4, 4, 0}, {0, 4, 0}};
+  // Apart, also where the boxes overlap.
+  expect_touching(square, {{1, 1, 1}, {2, 1, 1}, {1, 2, 1}}, false);
+  expect_touching(square, {{5.5, 3, -1}, {5.5, 3, 1}, {3, 5.5, 1}}, false);
+  expect_touching(square, {{5, 2, 0}, {2, 5, 0}, {5, 5, 0}, {6, 4, 0}}, true);
+  expect_touching(square, {{5, 3.5, 0}, {3.5, 5, 0}, {5, 5, 0}}, false);
+  // Sharing a corner, a side; folded by less than a half turn.
+  expect_touching(square, {{4, 4, 0}, {5, 4, 0}, {5, 5, 0}}, false);
+  expect_touching(square, {{4, 4, 0}, {5, 4, 1}, {5, 5, 2}}, false);
+  expect_touching(square, {{4, 0, 0}, {4, 4, 0}, {6, 1, 0}}, false);
+  expect_touching(square, {{4, 0, 0}, {4, 4, 0}, {1, 1, 3}}, false);
+  // Sharing a side and folded flat; sharing all corners of one.
+  expect_touching(square, {{4, 0, 0}, {4, 4, 0}, {2, 2, 0}}, true);
+  expect_touching(square, {{4, 0, 0}, {4, 4, 0}, {-2, 2, 0}}, true);
+  expect_touching(square, {{0, 0, 0}, {4, 0, 0}, {4, 4, 0}}, true);
+  // A side that joins two corners through the inside.
+  expect_touching(square, {{0, 0, 0}, {4, 4, 0}, {2, 2, 3}}, true);
+  // A spike through the middle; one that is pierced; a needle from a shared corner.
+  expect_touching(square, {{1, 1, -1}, {2, 1, -1}, {1, 1, 3}}, true);
+  expect_touching(square, {{-9, 2, -9}, {9, 2, -9}, {2, 2, 20}}, true);
+  expect_touching(square, {{4, 4, 0}, {1, 1, -1}, {1, 1, 3}}, true);
+  // A corner or a side that rests on the inside, on a side, across.
+  expect_touching(square, {{1, 1, 0}, {1, 1, 1}, {2, 1, 1}}, true);
+  expect_touching(square, {{4, 1, 0}, {5, 1, 1}, {5, 2, 1}}, true);
+  expect_touching(square, {{1, 1, 0}, {2, 2, 0}, {2, 1, 1}}, true);
+  expect_touching(square, {{-1, 2, 0}, {5, 2, 0}, {2, 2, 1}}, true);
+  expect_touching(square, {{4, 1, 0}, {4, 3, 0}, {5, 2, 2}}, true);
+  // Coplanar, crossing like a plus, without a corner inside.
+  expect_touching(square, {{1, -1, 0}, {2, -1, 0}, {2, 5, 0}, {1, 5, 0}}, true);
+}
+
+TEST(Scene, AStarThatWindsTwiceCrossesItself) {
+  std::vector<Point> v;
+  for (const auto& p : {Point(0, 3, 1), Point(3, 1, 1), Point(2, -2, 1), Point(-2, -2, 1),
+                        Point(-3, 1, 1)}) {
+    v.push_back(p);
+  }
+  const Scene scene(soup(v, {{0, 2, 4, 1, 3}}));
+  EXPECT_EQ(kinds(validate(scene)), (Kinds{{"self-crossing polygon", 1}}));
+  EXPECT_TRUE(Scene(soup(v, {{0, 1, 2, 3, 4}})).defects().empty());
+}
+
+TEST(Scene, DuplicatesOfCutPolygonsKnowTheirSide) {
+  const PolygonSoup l = in_file("non_convex.obj");
+  for (int start = 0; start < 6; ++start) {
+    for (const bool opposite : {false, true}) {
+      PolygonSoup s = l;
+      auto copy = s.polygons[0];
+      if (opposite) std::reverse(copy.begin(), copy.end());
+      std::rotate(copy.begin(), copy.begin() + start, copy.end());
+      s.polygons.push_back(copy);
+      const auto all = validate(Scene(s));
+      const auto d = std::find_if(all.begin(), all.end(), [](const Defect& x) {
+        return x.kind == "duplicate face";
+      });
+      ASSERT_NE(d, all.end());
+      EXPECT_EQ(d->faces, (std::vector<int>{0, 1}));
+      EXPECT_EQ(d->message.find("opposite") != std::string::npos, opposite);
+    }
+  }
 }
 
 TEST(Scene, RepeatedVerticesLeaveTheRestOfThePolygon) {
