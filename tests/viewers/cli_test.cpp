@@ -1,0 +1,338 @@
+// The program as scripts meet it: exit statuses, JSON keys, files whole or not at all.
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "viewers/picture.h"
+#include "viewers/vtk_export.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::string kRoom = std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj";
+const std::string kCornell = std::string(SIGHTLINE_EXAMPLES) + "/scenes/cornell.obj";
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+/// An empty folder for one test, removed with it.
+class Cli : public testing::Test {
+ protected:
+  Cli() {
+    std::string pattern = (fs::temp_directory_path() / "sightline-test-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~Cli() override { fs::remove_all(folder_); }
+
+  struct Run {
+    int status;
+    std::string out, err;
+  };
+
+  /// Starts the program with its output in files of the folder `io`.
+  pid_t start(std::vector<std::string> arguments) {
+    fs::create_directories(folder_ / "io");
+    const std::string out = (folder_ / "io/out").string();
+    const std::string err = (folder_ / "io/err").string();
+    arguments.insert(arguments.begin(), SIGHTLINE_PROGRAM);
+    std::vector<char*> argv;
+    for (std::string& a : arguments) argv.push_back(a.data());
+    argv.push_back(nullptr);
+    const pid_t pid = fork();
+    if (pid == 0) {
+      dup2(open(out.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDOUT_FILENO);
+      dup2(open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
+      unsetenv("DISPLAY");
+      execv(SIGHTLINE_PROGRAM, argv.data());
+      _exit(127);
+    }
+    return pid;
+  }
+
+  Run finish(pid_t pid) {
+    int status = 0;
+    waitpid(pid, &status, 0);
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contents(folder_ / "io/out"),
+            contents(folder_ / "io/err")};
+  }
+
+  Run run(const std::vector<std::string>& arguments) { return finish(start(arguments)); }
+
+  /// Runs and expects success and a JSON answer alone on standard output.
+  json answer(std::vector<std::string> arguments, int status = 0) {
+    arguments.insert(arguments.end(), {"--json", "-"});
+    const Run r = run(arguments);
+    EXPECT_EQ(r.status, status) << r.err;
+    EXPECT_EQ(r.err, "");
+    return json::parse(r.out);
+  }
+
+  /// Bad usage or bad input: status 2, one line, nothing written.
+  void expect_refused(const std::vector<std::string>& arguments,
+                      const std::string& mentioned = "") {
+    const Run r = run(arguments);
+    std::string shown;
+    for (const std::string& a : arguments) shown += a + " ";
+    EXPECT_EQ(r.status, 2) << shown << r.err;
+    EXPECT_EQ(r.out, "") << shown;
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << shown << r.err;
+    EXPECT_NE(r.err.find(mentioned), std::string::npos) << shown << r.err;
+    for (const auto& entry : fs::directory_iterator(folder_)) {
+      EXPECT_EQ(entry.path().filename(), "io") << shown << "left " << entry.path();
+    }
+  }
+
+  fs::path folder_;
+};
+
+void expect_common_keys(const json& j, const std::string& command) {
+  EXPECT_EQ(j.at("command"), command);
+  EXPECT_TRUE(j.at("version").is_string());
+  EXPECT_GT(j.at("scene").at("faces"), 0);
+  EXPECT_TRUE(j.at("complete").is_boolean());
+  EXPECT_GE(j.at("seconds"), 0.0);
+  EXPECT_GT(j.at("peak_memory_bytes"), 1000000);
+  for (const char* stage : {"double", "interval", "exact"}) {
+    EXPECT_TRUE(j.at("predicates").at(stage).is_number_unsigned());
+  }
+}
+
+TEST_F(Cli, InfoOfTheRoom) {
+  const json j = answer({"info", kRoom});
+  expect_common_keys(j, "info");
+  EXPECT_EQ(j.at("vertices"), 190);
+  EXPECT_EQ(j.at("faces"), 146);
+  EXPECT_EQ(j.at("solids"), 24);
+  EXPECT_EQ(j.at("edges"), json::parse(R"({"convex":288,"reflex":0,"flat":0,)"
+                                       R"("boundary":0,"nonmanifold":0})"));
+  EXPECT_EQ(j.at("groups").size(), 24U);
+  EXPECT_EQ(j.at("groups")[0], json::parse(R"({"name":"floor","faces":6})"));
+  EXPECT_EQ(j.at("bounds"), json::parse("[[-0.25,-0.25,-0.25],[6.25,3.0,4.75]]"));
+  EXPECT_TRUE(j.at("defects").empty());
+}
+
+TEST_F(Cli, InfoCountsAreThoseOfTheFile) {
+  const std::string data = std::string(SIGHTLINE_TEST_DATA) + "/formats/";
+  for (const char* file : {"cube.obj", "cube.off", "cube_ascii.ply"}) {
+    const json j = answer({"info", data + file});
+    EXPECT_EQ(j.at("vertices"), 8) << file;
+    EXPECT_EQ(j.at("faces"), 6) << file;
+    EXPECT_EQ(j.at("edges").at("convex"), 12) << file;
+    EXPECT_EQ(j.at("solids"), 1) << file;
+  }
+  const json stl = answer({"info", data + "cube_binary.stl"});
+  EXPECT_EQ(stl.at("vertices"), 8);
+  EXPECT_EQ(stl.at("faces"), 12);
+  EXPECT_EQ(stl.at("edges").at("flat"), 6);
+}
+
+TEST_F(Cli, InfoReportsDefectsWithIds) {
+  for (const auto& file :
+       fs::directory_iterator(std::string(SIGHTLINE_TEST_DATA) + "/defects")) {
+    const json j = answer({"info", file.path().string()});
+    for (const json& defect : j.at("defects")) {
+      EXPECT_TRUE(defect.at("kind").is_string());
+      EXPECT_TRUE(defect.contains("faces") || defect.contains("vertices")) << defect;
+      EXPECT_TRUE(defect.at("message").is_string());
+    }
+  }
+}
+
+TEST_F(Cli, MalformedFilesAreRefusedInOneLine) {
+  for (const auto& file :
+       fs::directory_iterator(std::string(SIGHTLINE_TEST_DATA) + "/malformed")) {
+    expect_refused(
+        {"info", file.path().string(), "--json", (folder_ / "answer.json").string(),
+         "--vtk", (folder_ / "vtk").string()},
+        file.path().filename().string());
+  }
+  const std::string bad = std::string(SIGHTLINE_TEST_DATA) + "/malformed/nan.obj";
+  expect_refused({"analyse", bad, "-o", (folder_ / "report").string()}, "nan.obj");
+  expect_refused({"skeleton", bad, "-o", (folder_ / "skeleton.json").string()});
+  expect_refused({"view", bad, "--png", (folder_ / "picture.png").string()});
+}
+
+TEST_F(Cli, BadUsageIsRefusedInOneLine) {
+  expect_refused({});
+  expect_refused({"guess"});
+  expect_refused({"info"});
+  expect_refused({"info", "no_such_file.obj"}, "no_such_file.obj");
+  expect_refused({"info", kRoom, "--threads", "-3"}, "--threads");
+  expect_refused({"info", kRoom, "--precision", "float"}, "--precision");
+  expect_refused({"skeleton", kRoom, "--events", "polygon"}, "polygon");
+  expect_refused({"skeleton", kRoom, "--kinds", "EV,EEE"}, "EEE");
+  expect_refused({"skeleton", kRoom, "--between", "crate", "nothing"}, "nothing");
+  expect_refused({"skeleton", kRoom, "--through", "#100-200"}, "#100-200");
+  expect_refused({"skeleton", kRoom, "--region", "0,0,0,1,1"}, "--region");
+  expect_refused({"skeleton", kRoom, "--region", "1,0,0,0,1,1"}, "--region");
+  expect_refused({"skeleton", kRoom, "--budget", "-1"}, "--budget");
+  expect_refused({"analyse", kRoom, "--only", "shadows"}, "shadows");
+  expect_refused({"view", kRoom}, "--png");
+  expect_refused({"info", kRoom, "--json", (folder_ / "none/answer.json").string()},
+                 "none/answer.json");
+}
+
+TEST_F(Cli, HelpNamesEveryOption) {
+  const Run r = run({"skeleton", "--help"});
+  EXPECT_EQ(r.status, 0);
+  for (const char* option :
+       {"--events", "--kinds", "--between", "--through", "--region", "--budget", "--list",
+        "--output", "--json", "--vtk", "--threads", "--precision"}) {
+    EXPECT_NE(r.out.find(option), std::string::npos) << option;
+  }
+  EXPECT_EQ(run({"--version"}).status, 0);
+}
+
+TEST_F(Cli, SkeletonCountsAndListAgree) {
+  const json j =
+      answer({"skeleton", kRoom, "--between", "lamp_shade", "tilted_box", "--list"});
+  expect_common_keys(j, "skeleton");
+  EXPECT_TRUE(j.at("complete"));
+  const json& arcs = j.at("list").at("arcs");
+  const json& nodes = j.at("list").at("nodes");
+  ASSERT_GT(arcs.size(), 10U);
+  EXPECT_EQ(j.at("arcs").at("EV").get<int>() + j.at("arcs").at("EV_self").get<int>(),
+            static_cast<int>(arcs.size()));
+  std::map<std::string, int> counted;
+  for (const json& node : nodes) {
+    if (!node.contains("end")) ++counted[node.at("kind")];
+    EXPECT_EQ(node.at("line").size(), 2U);
+    EXPECT_FALSE(node.at("generators").empty());
+  }
+  for (const auto& [kind, count] : counted) EXPECT_EQ(j.at("nodes").at(kind), count);
+  int with_far_ends = 0;
+  for (const json& arc : arcs) {
+    const std::string v = arc.at("vertex").at("objects")[0];
+    const std::string e = arc.at("edge").at("objects")[0];
+    EXPECT_TRUE((v == "lamp_shade" && e == "tilted_box") ||
+                (v == "tilted_box" && e == "lamp_shade"));
+    EXPECT_LT(arc.at("range")[0], arc.at("range")[1]);
+    for (const json& n : arc.at("nodes")) EXPECT_LT(n.get<std::size_t>(), nodes.size());
+    if (arc.at("free_segment").is_null()) continue;
+    ++with_far_ends;
+    for (const json& end : arc.at("free_segment").at("ends")) {
+      EXPECT_TRUE(end == "outside" || !end.at("faces").empty());
+    }
+  }
+  EXPECT_EQ(with_far_ends, static_cast<int>(arcs.size()));
+}
+
+TEST_F(Cli, ThroughIsTheUnionOfItsPairs) {
+  const auto count = [&](const std::vector<std::string>& selection) {
+    std::vector<std::string> arguments{"skeleton", kCornell};
+    arguments.insert(arguments.end(), selection.begin(), selection.end());
+    const json arcs = answer(arguments).at("arcs");
+    return arcs.at("EV").get<int>() + arcs.at("EV_self").get<int>();
+  };
+  const int whole = count({});
+  const int through = count({"--through", "tall_block"});
+  EXPECT_GT(through, count({"--between", "tall_block", "short_block"}));
+  EXPECT_LT(through, whole);
+  EXPECT_EQ(count({"--region", "-1,-1,-1,100,100,100"}), whole);
+}
+
+TEST_F(Cli, SavedSkeletonCanBeViewed) {
+  const fs::path saved = folder_ / "skeleton.json", png = folder_ / "picture.png";
+  ASSERT_EQ(run({"skeleton", kCornell, "-o", saved.string()}).status, 0);
+  ASSERT_EQ(
+      run({"view", saved.string(), "--png", png.string(), "--size", "400,300"}).status,
+      0);
+  EXPECT_EQ(contents(png).substr(1, 3), "PNG");
+  EXPECT_FALSE(json::parse(contents(saved)).at("list").at("arcs").empty());
+}
+
+TEST_F(Cli, BudgetGivesAPartialAnswer) {
+  const json j = answer({"skeleton", kRoom, "--budget", "1e-6"}, 3);
+  EXPECT_EQ(j.at("complete"), false);
+  EXPECT_LT(j.at("vertices_done"), j.at("vertices_asked"));
+}
+
+/// True once the process blocks SIGINT, which it does when it is ready for one.
+bool awaits_interrupt(pid_t pid) {
+  std::istringstream status(contents("/proc/" + std::to_string(pid) + "/status"));
+  for (std::string line; std::getline(status, line);) {
+    if (line.starts_with("SigBlk:")) {
+      return (std::stoull(line.substr(7), nullptr, 16) >> (SIGINT - 1) & 1) != 0;
+    }
+  }
+  return false;
+}
+
+TEST_F(Cli, InterruptGivesAPartialAnswer) {
+  const pid_t pid = start({"skeleton", kRoom, "--threads", "1", "--json", "-"});
+  for (int i = 0; i < 2000 && !awaits_interrupt(pid); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  kill(pid, SIGINT);
+  const Run r = finish(pid);
+  EXPECT_EQ(r.status, 3) << r.err;
+  EXPECT_EQ(json::parse(r.out).at("complete"), false);
+}
+
+TEST_F(Cli, AnalyseFillsAFolder) {
+  const fs::path folder = folder_ / "report";
+  const json j = answer({"analyse", kCornell, "-o", folder.string()});
+  expect_common_keys(j, "analyse");
+  EXPECT_EQ(json::parse(contents(folder / "report.json")), j);
+  EXPECT_EQ(j.at("skeleton").at("arcs"), answer({"skeleton", kCornell}).at("arcs"));
+  EXPECT_TRUE(j.at("missing").empty());
+  for (const json& file : j.at("files")) {
+    EXPECT_GT(fs::file_size(folder / file.get<std::string>()), 0U) << file;
+  }
+  // More than a blank picture of the same size.
+  const std::string blank =
+      encode_png(sightline::viewers::render({}, {{0, 0, 5}, {0, 0, 0}, {0, 1, 0}}));
+  EXPECT_GT(contents(folder / "nodes.png").size(), 3 * blank.size());
+
+  // The page needs no other file: every source is inlined, every link is a file beside
+  // it.
+  const std::string page = contents(folder / "index.html");
+  EXPECT_NE(page.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);
+  for (const char* outside : {"http:", "https:", "<script", "<link", "@import"}) {
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  }
+  for (std::size_t at = page.find("src=\""); at != std::string::npos;
+       at = page.find("src=\"", at + 1)) {
+    EXPECT_EQ(page.substr(at + 5, 5), "data:");
+  }
+  // No temporary files are left.
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    EXPECT_NE(entry.path().filename().string()[0], '.') << entry.path();
+  }
+  ASSERT_EQ(run({"view", folder.string(), "--png", (folder_ / "view.png").string(),
+                 "--size", "400,300"})
+                .status,
+            0);
+  EXPECT_EQ(contents(folder_ / "view.png").substr(1, 3), "PNG");
+}
+
+TEST_F(Cli, AnalyseSaysWhatIsMissing) {
+  const fs::path folder = folder_ / "report";
+  const json j = answer({"analyse", "-o", folder.string(), "--budget", "1e-6"}, 3);
+  EXPECT_EQ(j.at("missing").size(), 1U);
+  EXPECT_NE(contents(folder / "index.html").find("not complete"), std::string::npos);
+  // The built-in scene is the sample file.
+  EXPECT_EQ(contents(folder / "room.obj"), contents(kRoom));
+}
+
+}  // namespace

@@ -1,0 +1,106 @@
+// VTK files can be read back and hold what the skeleton holds.
+
+#include "viewers/vtk_export.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <fstream>
+
+#include "linespace/mesh_io.h"
+#include "viewers/output_file.h"
+#include "viewers/palette.h"
+
+namespace sightline::viewers {
+namespace {
+
+namespace fs = std::filesystem;
+
+class VtkExport : public testing::Test {
+ protected:
+  VtkExport()
+      : scene_(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/cornell.obj")),
+        skeleton_(build_ev_skeleton(scene_)) {
+    std::string pattern = (fs::temp_directory_path() / "sightline-vtk-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~VtkExport() override { fs::remove_all(folder_); }
+
+  Scene scene_;
+  Skeleton skeleton_;
+  fs::path folder_;
+};
+
+TEST_F(VtkExport, SceneSurvivesTheRoundTrip) {
+  write_vtk(folder_, scene_, {});
+  const VtkPicture picture = read_vtk(folder_ / "sightline.vtm");
+  EXPECT_EQ(picture.soup.vertices, scene_.soup().vertices);
+  EXPECT_EQ(picture.soup.polygons, scene_.soup().polygons);
+  ASSERT_EQ(picture.soup.groups.size(), scene_.objects().size());
+  for (std::size_t i = 0; i < scene_.objects().size(); ++i) {
+    EXPECT_EQ(picture.soup.groups[i].name, scene_.objects()[i].name);
+  }
+  EXPECT_TRUE(picture.veils.empty());
+  EXPECT_TRUE(picture.strokes.empty());
+}
+
+TEST_F(VtkExport, EveryArcAndNodeIsThereInItsColour) {
+  const std::vector<std::string> files =
+      write_vtk(folder_, scene_, {&skeleton_, nullptr});
+  for (const std::string& file : files) EXPECT_TRUE(fs::exists(folder_ / file)) << file;
+  const VtkPicture picture = read_vtk(folder_ / "sightline.vtm");
+  EXPECT_EQ(picture.veils.size(), skeleton_.arcs.size());
+  EXPECT_EQ(picture.strokes.size(), skeleton_.nodes.size());
+  const VtkPicture vv = read_vtk(folder_ / "nodes_VV.vtp");
+  ASSERT_FALSE(vv.strokes.empty());
+  EXPECT_EQ(hex(vv.strokes[0].colour), hex(colour_of_kind("VV")));
+  std::size_t expected = 0;
+  for (const SkeletonNode& node : skeleton_.nodes) {
+    expected += kind_name(node) == "VV" ? 1 : 0;
+  }
+  EXPECT_EQ(vv.strokes.size(), expected);
+}
+
+TEST_F(VtkExport, StripsReachTheFacesThatEndThem) {
+  const OcclusionIndex index(scene_);
+  int ended = 0;
+  for (const int arc : evenly_spread(skeleton_.arcs.size(), 40)) {
+    const RuledStrip strip = ruled_strip(scene_, index, skeleton_, arc, 5);
+    for (const FarEnds& rung : strip.rungs) {
+      for (const int side : {0, 1}) {
+        for (const int polygon : rung.faces[side]) {
+          // The point lies in the plane of the polygon that ends the line there.
+          const std::vector<int>& ids = scene_.soup().polygons[polygon];
+          const Point& a = scene_.soup().vertices[ids[0]];
+          const Point normal = (scene_.soup().vertices[ids[1]] - a)
+                                   .cross(scene_.soup().vertices[ids[2]] - a)
+                                   .normalized();
+          EXPECT_NEAR(normal.dot(rung.points[side] - a), 0, 1e-6);
+          ++ended;
+        }
+      }
+    }
+  }
+  EXPECT_GT(ended, 50);
+}
+
+TEST_F(VtkExport, UnreadableFilesAreRefused) {
+  std::ofstream(folder_ / "bad.vtp") << "not VTK";
+  EXPECT_THROW((void)read_vtk(folder_ / "bad.vtp"), InvalidInput);
+  EXPECT_THROW((void)read_vtk(folder_ / "none.vtm"), InvalidInput);
+}
+
+TEST_F(VtkExport, FilesAreWholeOrNotThere) {
+  {
+    OutputFile file(folder_ / "half.txt");
+    file.stream() << "half";
+  }
+  EXPECT_TRUE(fs::is_empty(folder_));
+  write_whole(folder_ / "whole.txt", "whole");
+  EXPECT_EQ(fs::file_size(folder_ / "whole.txt"), 5U);
+  EXPECT_THROW(write_whole(folder_ / "none/file.txt", ""), OutputError);
+}
+
+}  // namespace
+}  // namespace sightline::viewers
