@@ -399,7 +399,6 @@ void find_further_contacts(const Generators& g, const Star& star, VertexView& vi
       if (done[id]) continue;
       done[id] = 1;
       SkeletonNode& node = view.nodes[id];
-      if (node.end) continue;
       const Cut& cut = k == 0 ? view.intervals[i].from : view.intervals[i].to;
       const ExactPoint x = cut.kind == CutKind::Start ? x0
                            : cut.kind == CutKind::End
@@ -413,8 +412,13 @@ void find_further_contacts(const Generators& g, const Star& star, VertexView& vi
         if (scan.from(c) <= 1 && scan.to(c) >= 1) last = c;
       }
       if (first < 0 || last < 0) continue;
-      while (first > 0 && !scan.blocked(first - 1)) --first;
-      while (last + 1 < scan.size() && !scan.blocked(last + 1)) ++last;
+      // A node at which the line ends goes on to the other side only.
+      if (!node.end || !blocks_segment(scan, first)) {
+        while (first > 0 && !scan.blocked(first - 1)) --first;
+      }
+      if (!node.end || !blocks_segment(scan, last)) {
+        while (last + 1 < scan.size() && !scan.blocked(last + 1)) ++last;
+      }
       std::vector<std::vector<Generator>> groups;
       for (int c = first; c <= last; ++c) groups.push_back(generators_of(g, scan, c));
       const auto kind = kind_of(groups);

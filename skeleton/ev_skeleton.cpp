@@ -96,8 +96,8 @@ class Joiner {
     if (node.kind == NodeKind::VV || node.kind == NodeKind::Degenerate) {
       std::vector<Generator> key(generators.begin(), generators.end());
       const std::vector<Generator> reversed(key.rbegin(), key.rend());
-      if (node.kind == NodeKind::VV) key = std::min(key, reversed);
-      if (key.size() == 2) {
+      key = std::min(key, reversed);
+      if (node.kind == NodeKind::VV) {
         const std::uint64_t pair = (static_cast<std::uint64_t>(key[0].id) << 32) |
                                    static_cast<std::uint32_t>(key[1].id);
         auto& known = node.end ? ends_ : pairs_;
@@ -105,7 +105,11 @@ class Joiner {
         if (!fresh) return at->second;
       } else {
         const auto [at, fresh] = lines_.try_emplace(std::move(key), next);
-        if (!fresh) return at->second;
+        if (!fresh) {
+          // Found again from another contact: that the line ends at one of them counts.
+          out_.nodes[at->second].end |= node.end;
+          return at->second;
+        }
       }
     }
     node.first_generator = static_cast<std::uint32_t>(out_.generator_pool.size());

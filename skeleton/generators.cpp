@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cassert>
+#include <optional>
 
 #include "skeleton/generators_internal.h"
 
@@ -149,7 +150,54 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
                                                       : EdgeTouch::Touches;
 }
 
+// The stretch of the edge e0 e1, as parameters, that lies in a coplanar face's closed
+// polygon; nullopt when it is a point at most, or runs along a side that is not flat.
+std::optional<std::array<Rational, 2>> stretch_inside(const Scene& scene, int f,
+                                                      const Point& e0, const Point& e1) {
+  const InPlaneSide left_of(scene, f);
+  const auto corners = scene.face_points(f);
+  const int n = static_cast<int>(corners.size());
+  Rational low = 0;
+  Rational high = 1;
+  for (int k = 0; k < n; ++k) {
+    const Point& p = scene.point(corners[k]);
+    const Point& q = scene.point(corners[(k + 1) % n]);
+    const Sign a = left_of(p, q, e0);
+    const Sign b = left_of(p, q, e1);
+    if (a == Sign::Zero && b == Sign::Zero && scene.edge_of_side(f, k) >= 0) {
+      return std::nullopt;
+    }
+    if (a != Sign::Negative && b != Sign::Negative) continue;
+    if (a != Sign::Positive && b != Sign::Positive) return std::nullopt;
+    const Rational x = left_of.value(p, q, e0);
+    const Rational y = left_of.value(p, q, e1);
+    const Rational s = x / (x - y);
+    if (a == Sign::Negative) low = std::max(low, s);
+    if (b == Sign::Negative) high = std::min(high, s);
+  }
+  if (low >= high) return std::nullopt;
+  return std::array<Rational, 2>{low, high};
+}
+
+// The stretches cover the whole edge.
+bool cover_edge(std::vector<std::array<Rational, 2>> stretches) {
+  std::sort(stretches.begin(), stretches.end());
+  Rational reached = 0;
+  for (const auto& [from, to] : stretches) {
+    if (from > reached) return false;
+    reached = std::max(reached, to);
+  }
+  return reached >= 1;
+}
+
 }  // namespace
+
+Rational InPlaneSide::value(const Point& p, const Point& q, const Point& x) const {
+  const int i = (axis_ + 1) % 3;
+  const int j = (axis_ + 2) % 3;
+  return (Rational(q[i]) - Rational(p[i])) * (Rational(x[j]) - Rational(p[j])) -
+         (Rational(q[j]) - Rational(p[j])) * (Rational(x[i]) - Rational(p[i]));
+}
 
 Generators::Generators(const Scene& scene, int /*threads*/)
     : scene_(&scene),
@@ -275,6 +323,7 @@ void Generators::find_ridges() {
     }
     const Box box = box_between(e0, e1);
     EdgeTouch touched = EdgeTouch::None;
+    std::vector<std::array<Rational, 2>> stretches;
     face_tree_.traverse(
         [&](const Box& other) {
           return touched != EdgeTouch::ContainsInside && boxes_meet(box, other);
@@ -290,8 +339,14 @@ void Generators::find_ridges() {
           for (const int own : faces) {
             if (s.faces()[own].facet == s.faces()[f].facet) return;
           }
-          touched = std::max(touched, touch_of(s, face_planes_[f], f, e0, e1));
+          const EdgeTouch touch = touch_of(s, face_planes_[f], f, e0, e1);
+          touched = std::max(touched, touch);
+          if (touch == EdgeTouch::Touches && face_planes_[f](e0) == Sign::Zero &&
+              face_planes_[f](e1) == Sign::Zero) {
+            if (const auto stretch = stretch_inside(s, f, e0, e1)) stretches.push_back(*stretch);
+          }
         });
+    if (cover_edge(std::move(stretches))) continue;
     if (touched == EdgeTouch::ContainsInside) continue;
     ridge_of_edge_[i] = static_cast<int>(ridges_.size());
     // Behind both planes is the wedge.

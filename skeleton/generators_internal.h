@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "linespace/bvh_internal.h"
+#include "linespace/contact_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
 
@@ -123,6 +124,9 @@ class InPlaneSide {
   /// Which side of line pq point x lies on, for p, q, x in the face's plane: Positive to
   /// the left, seen from the face's front.
   [[nodiscard]] Sign operator()(const Point& p, const Point& q, const Point& x) const;
+  /// A number proportional to the distance of x from line pq, with a sign that depends on
+  /// the side: for ratios on one line pq.
+  [[nodiscard]] Rational value(const Point& p, const Point& q, const Point& x) const;
 
  private:
   int axis_ = 0;
