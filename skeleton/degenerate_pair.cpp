@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <optional>
 
@@ -8,32 +9,8 @@
 namespace sightline::internal {
 namespace {
 
-Rational exact_orient(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c,
-                      const ExactPoint& d) {
-  const auto minus = [](const ExactPoint& p, const ExactPoint& q) {
-    return ExactPoint{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-  };
-  const ExactPoint u = minus(b, a);
-  const ExactPoint v = minus(c, a);
-  const ExactPoint w = minus(d, a);
-  return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
-         w[2] * (u[0] * v[1] - u[1] * v[0]);
-}
-
 ExactPoint along(const ExactPoint& a, const ExactPoint& b, const Rational& s) {
   return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
-}
-
-Rational exact_parameter(const Scene& scene, const ExactPoint& e0, const ExactPoint& e1,
-                         const Cut& cut) {
-  if (cut.kind == CutKind::Start) return 0;
-  if (cut.kind == CutKind::End) return 1;
-  const ExactPoint a = exact_point(scene.point(cut.plane[0]));
-  const ExactPoint b = exact_point(scene.point(cut.plane[1]));
-  const ExactPoint c = exact_point(scene.point(cut.plane[2]));
-  const Rational x = exact_orient(a, b, c, e0);
-  const Rational y = exact_orient(a, b, c, e1);
-  return x / (x - y);
 }
 
 Point rounded(const ExactPoint& p) {
@@ -224,10 +201,41 @@ std::uint32_t add_node_at(const Generators& g, const Point& v, const ExactPoint&
                       !c.free, c.flat(), {v, rounded(x)});
 }
 
+// The point strictly inside both segments where they cross, for four points in a plane
+// that `off_plane` is not in.
+std::optional<ExactPoint> crossing_in_plane(const Scene& scene,
+                                            const std::array<std::int32_t, 2>& s,
+                                            const std::array<std::int32_t, 2>& t,
+                                            int off_plane) {
+  const Point& p = scene.point(s[0]);
+  const Point& q = scene.point(s[1]);
+  const Point& a = scene.point(t[0]);
+  const Point& b = scene.point(t[1]);
+  for (int i = 0; i < 3; ++i) {
+    if (std::max(p[i], q[i]) < std::min(a[i], b[i]) ||
+        std::max(a[i], b[i]) < std::min(p[i], q[i])) {
+      return std::nullopt;
+    }
+  }
+  const Point& up = scene.point(off_plane);
+  const auto apart = [&](const Point& from, const Point& to, const Point& x,
+                         const Point& y) {
+    const Sign one = orient3d(from, to, up, x);
+    return one != Sign::Zero && one == -orient3d(from, to, up, y);
+  };
+  if (!apart(p, q, a, b) || !apart(a, b, p, q)) return std::nullopt;
+  const ExactPoint from = exact_point(a);
+  const ExactPoint to = exact_point(b);
+  const Rational x = exact_orient(exact_point(p), exact_point(q), exact_point(up), from);
+  const Rational y = exact_orient(exact_point(p), exact_point(q), exact_point(up), to);
+  return along(from, to, x / (x - y));
+}
+
 // All positions where the line's contacts can change, between the edge's ends.
 std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Point& e0,
                                const Point& e1, const PlaneSide& plane,
-                               std::span<const int> faces) {
+                               std::span<const int> faces,
+                               std::deque<Rational>& positions) {
   const Scene& scene = g.scene();
   const Point& v = scene.point(star.point);
   std::vector<Cut> cuts;
@@ -262,6 +270,35 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
     const bool at_viewpoint = g.face_plane(f)(v) == Sign::Zero;
     add(at_viewpoint ? CutKind::Support : CutKind::Pierce, scene.faces()[f].facet,
         plane_points(scene, f));
+  }
+  // Sides in the plane that cross there: contacts meet at the crossing.
+  if (off_plane >= 0) {
+    std::vector<std::array<std::int32_t, 2>> sides;
+    for (const int f : faces) {
+      const auto corners = scene.face_points(f);
+      for (std::size_t k = 0; k < corners.size(); ++k) {
+        const int p = corners[k];
+        const int q = corners[(k + 1) % corners.size()];
+        if (plane(scene.point(p)) != Sign::Zero || plane(scene.point(q)) != Sign::Zero)
+          continue;
+        sides.push_back({std::min(p, q), std::max(p, q)});
+      }
+    }
+    std::sort(sides.begin(), sides.end());
+    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+    const ExactPoint eye = exact_point(v);
+    const ExactPoint up = exact_point(scene.point(off_plane));
+    for (std::size_t i = 0; i < sides.size(); ++i) {
+      for (std::size_t j = i + 1; j < sides.size(); ++j) {
+        const auto x = crossing_in_plane(scene, sides[i], sides[j], off_plane);
+        if (!x) continue;
+        const Rational a = exact_orient(eye, *x, up, exact_point(e0));
+        const Rational b = exact_orient(eye, *x, up, exact_point(e1));
+        if (a.sign() * b.sign() >= 0) continue;
+        positions.push_back(a / (a - b));
+        cuts.push_back(exact_cut(positions.back()));
+      }
+    }
   }
   if (!star.convex) {
     for (std::size_t i = 0; i < star.rays.size(); ++i) {
@@ -303,7 +340,8 @@ std::uint32_t contact_node(const Generators& g, const Star& star, const Ridge& r
   out.degenerate = true;
   const ExactPoint x0 = exact_point(scene.point(ridge.points[0]));
   const ExactPoint x1 = exact_point(scene.point(ridge.points[1]));
-  const ExactPoint x = along(x0, x1, exact_parameter(scene, x0, x1, cut));
+  const LineThrough line{scene.point(ridge.points[0]), scene.point(ridge.points[1])};
+  const ExactPoint x = along(x0, x1, exact_parameter(scene, line, cut));
   const Point& v = scene.point(star.point);
   return add_node_at(g, v, x, LineScan(scene, faces, exact_point(v), x), out);
 }
@@ -322,22 +360,23 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
   faces.insert(faces.end(), star.faces.begin(), star.faces.end());
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  const std::vector<Cut> cuts = critical_cuts(g, star, e0, e1, plane, faces);
+  const std::vector<Cut> cuts =
+      critical_cuts(g, star, e0, e1, plane, faces, out.positions);
   const ExactPoint from = exact_point(v);
   const ExactPoint x0 = exact_point(e0);
   const ExactPoint x1 = exact_point(e1);
   const auto point_at = [&](const Cut& c) {
     if (c.kind == CutKind::Start) return x0;
     if (c.kind == CutKind::End) return x1;
-    return along(x0, x1, exact_parameter(scene, x0, x1, c));
+    return along(x0, x1, exact_parameter(scene, line, c));
   };
   const auto point_between = [&](const Cut& a, const Cut& b) {
     if (a.hi < b.lo) {
       const double middle = a.hi + 0.5 * (b.lo - a.hi);
       if (middle > a.hi && middle < b.lo) return along(x0, x1, Rational(middle));
     }
-    const Rational s = exact_parameter(scene, x0, x1, a);
-    const Rational t = exact_parameter(scene, x0, x1, b);
+    const Rational s = exact_parameter(scene, line, a);
+    const Rational t = exact_parameter(scene, line, b);
     return along(x0, x1, (s + t) / 2);
   };
   const auto own = g.objects_at(star.point);
@@ -394,6 +433,7 @@ void find_further_contacts(const Generators& g, const Star& star, VertexView& vi
     const Edge& edge = scene.edges()[view.arcs[i].edge];
     const ExactPoint x0 = exact_point(scene.point(edge.points[0]));
     const ExactPoint x1 = exact_point(scene.point(edge.points[1]));
+    const LineThrough line{scene.point(edge.points[0]), scene.point(edge.points[1])};
     for (int k = 0; k < 2; ++k) {
       const std::uint32_t id = view.arcs[i].nodes[k];
       if (done[id]) continue;
@@ -403,7 +443,7 @@ void find_further_contacts(const Generators& g, const Star& star, VertexView& vi
       const ExactPoint x = cut.kind == CutKind::Start ? x0
                            : cut.kind == CutKind::End
                                ? x1
-                               : along(x0, x1, exact_parameter(scene, x0, x1, cut));
+                               : along(x0, x1, exact_parameter(scene, line, cut));
       const LineScan scan(scene, faces_near_line(g, v, rounded(x)), from, x);
       int first = -1;
       int last = -1;

@@ -23,6 +23,39 @@ Cut make_cut(CutKind kind, std::int32_t feature, const std::array<std::int32_t, 
   return cut;
 }
 
+Rational exact_orient(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c,
+                      const ExactPoint& d) {
+  const auto minus = [](const ExactPoint& p, const ExactPoint& q) {
+    return ExactPoint{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+  };
+  const ExactPoint u = minus(b, a);
+  const ExactPoint v = minus(c, a);
+  const ExactPoint w = minus(d, a);
+  return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
+         w[2] * (u[0] * v[1] - u[1] * v[0]);
+}
+
+Cut exact_cut(const Rational& parameter) {
+  constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
+  const double s = parameter.convert_to<double>();
+  Cut cut{
+      CutKind::Side, -1, {-1, -1, -1}, s * (1 - slack), std::min(1.0, s * (1 + slack))};
+  cut.exact = &parameter;
+  return cut;
+}
+
+Rational exact_parameter(const Scene& scene, const LineThrough& edge, const Cut& cut) {
+  if (cut.kind == CutKind::Start) return 0;
+  if (cut.kind == CutKind::End) return 1;
+  if (cut.exact != nullptr) return *cut.exact;
+  const ExactPoint a = exact_point(scene.point(cut.plane[0]));
+  const ExactPoint b = exact_point(scene.point(cut.plane[1]));
+  const ExactPoint c = exact_point(scene.point(cut.plane[2]));
+  const Rational x = exact_orient(a, b, c, exact_point(edge.from));
+  const Rational y = exact_orient(a, b, c, exact_point(edge.to));
+  return x / (x - y);
+}
+
 Sign compare(const Scene& scene, const LineThrough& edge, const Cut& a, const Cut& b) {
   const auto fixed = [](const Cut& c) {
     return c.kind == CutKind::Start ? -1 : c.kind == CutKind::End ? 1 : 0;
@@ -32,6 +65,11 @@ Sign compare(const Scene& scene, const LineThrough& edge, const Cut& a, const Cu
   if (fa != 0 || fb != 0) return static_cast<Sign>((fa > fb) - (fa < fb));
   if (a.hi < b.lo) return Sign::Negative;
   if (a.lo > b.hi) return Sign::Positive;
+  if (a.exact != nullptr || b.exact != nullptr) {
+    const Rational x = exact_parameter(scene, edge, a);
+    const Rational y = exact_parameter(scene, edge, b);
+    return x < y ? Sign::Negative : x > y ? Sign::Positive : Sign::Zero;
+  }
   if (a.plane == b.plane) return Sign::Zero;
   if (a.kind == b.kind && a.feature >= 0 && a.feature == b.feature) return Sign::Zero;
   const auto plane_of = [&](const Cut& c) {

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "linespace/contact_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
 
@@ -31,6 +32,9 @@ struct Cut {
   std::array<std::int32_t, 3> plane{-1, -1, -1};
   /// Enclosure of the parameter: 0 at the edge's start, 1 at its end.
   double lo = 0, hi = 0;
+  /// The parameter itself where no three scene points span the plane; kept alive by the
+  /// VertexView that the cut belongs to.
+  const Rational* exact = nullptr;
 
   [[nodiscard]] double parameter() const { return 0.5 * (lo + hi); }
 };
@@ -43,6 +47,17 @@ inline Cut end_cut() { return {CutKind::End, -1, {-1, -1, -1}, 1, 1}; }
 [[nodiscard]] Cut make_cut(CutKind kind, std::int32_t feature,
                            const std::array<std::int32_t, 3>& plane,
                            const BoundedValue& at_start, const BoundedValue& at_end);
+
+/// A cut at a given parameter strictly between 0 and 1; keeps a pointer to it.
+[[nodiscard]] Cut exact_cut(const Rational& parameter);
+
+/// The exact parameter of a cut along the edge from `start` to `end`.
+[[nodiscard]] Rational exact_parameter(const Scene& scene, const LineThrough& edge,
+                                       const Cut& cut);
+
+/// det(b - a, c - a, d - a), whose sign orient3d gives.
+[[nodiscard]] Rational exact_orient(const ExactPoint& a, const ExactPoint& b,
+                                    const ExactPoint& c, const ExactPoint& d);
 
 /// Order of two cuts along the edge from `start` to `end`: exact.
 [[nodiscard]] Sign compare(const Scene& scene, const LineThrough& edge, const Cut& a,

@@ -343,10 +343,16 @@ void Generators::find_ridges() {
           touched = std::max(touched, touch);
           if (touch == EdgeTouch::Touches && face_planes_[f](e0) == Sign::Zero &&
               face_planes_[f](e1) == Sign::Zero) {
-            if (const auto stretch = stretch_inside(s, f, e0, e1)) stretches.push_back(*stretch);
+            if (const auto stretch = stretch_inside(s, f, e0, e1))
+              stretches.push_back(*stretch);
           }
         });
     if (cover_edge(std::move(stretches))) continue;
+    // Edges of several objects that coincide are one generator.
+    if (!ridges_.empty() && ridges_.back().points == e.points) {
+      ridges_.back().touched = true;
+      continue;
+    }
     if (touched == EdgeTouch::ContainsInside) continue;
     ridge_of_edge_[i] = static_cast<int>(ridges_.size());
     // Behind both planes is the wedge.

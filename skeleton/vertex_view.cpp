@@ -320,6 +320,8 @@ VertexView VertexViewer::view(int star) {
   visit_ridges(out);
   add_line_ups(out);
   if (out.degenerate) find_further_contacts(g_, *star_, out);
+  out.intervals = {};
+  out.positions = {};
   return out;
 }
 
@@ -835,7 +837,7 @@ bool VertexViewer::ends_are_simple(const Pair& pair,
     if (end.kind == CutKind::Side && end.feature < 0) return false;
     return std::none_of(pair.cuts.begin(), pair.cuts.end(), [&](const Cut& other) {
       if (other.hi < end.lo || other.lo > end.hi) return false;
-      if (other.plane == end.plane) return false;
+      if (other.plane == end.plane && other.exact == end.exact) return false;
       if (other.kind == end.kind && other.feature == end.feature) return false;
       return compare(scene_, line, other, end) == Sign::Zero;
     });

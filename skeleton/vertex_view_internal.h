@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,8 @@ struct VertexView {
   std::vector<SkeletonArc> arcs;
   std::vector<SkeletonNode> nodes;
   std::vector<Generator> pool;
-  std::vector<CutInterval> intervals;  ///< exact ranges of `arcs`
+  std::vector<CutInterval> intervals;  ///< exact ranges of `arcs`, while it is built
+  std::deque<Rational> positions;      ///< of cuts that keep a pointer
   /// Some line here has more contacts than it needs, or one is in the plane of a face.
   bool degenerate = false;
 
