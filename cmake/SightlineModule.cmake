@@ -23,11 +23,6 @@ function(sightline_module module)
   if(ARG_UNPARSED_ARGUMENTS)
     message(FATAL_ERROR "sightline_module(${module}): unknown ${ARG_UNPARSED_ARGUMENTS}")
   endif()
-  sightline_existing(ARG_SOURCES)
-  sightline_existing(ARG_HEADERS)
-  if(NOT ARG_SOURCES)
-    return()
-  endif()
 
   add_library(${module} ${ARG_SOURCES})
   add_library(sightline::${module} ALIAS ${module})
@@ -61,16 +56,6 @@ function(sightline_install_module_config module modules packages)
        "include(\"\${CMAKE_CURRENT_LIST_DIR}/sightline-${module}-targets.cmake\")\n")
   install(FILES ${file} DESTINATION ${SIGHTLINE_INSTALL_CMAKE})
 endfunction()
-
-# Leaves in the named list only the files that exist.
-macro(sightline_existing list)
-  foreach(file IN LISTS ${list})
-    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${file})
-      message(STATUS "Not there yet: ${CMAKE_CURRENT_SOURCE_DIR}/${file}")
-      list(REMOVE_ITEM ${list} ${file})
-    endif()
-  endforeach()
-endmacro()
 
 # Installs sightline-config.cmake for the modules that were built; call it last.
 function(sightline_install_package)
