@@ -3,7 +3,9 @@
 // OBJ, PLY (ASCII and binary), STL (ASCII and binary) and OFF are read here, strictly: a
 // file that ends early, holds garbage or announces more than it has is refused with its
 // line or element.  glTF, IFC, AC3D and others go through assimp where the build found
-// it; that library keeps single precision.
+// it; that library keeps single precision.  IFC models stay upright (z up) as their file
+// has them, without rooms.  An IFC file that is well-formed but wrong in itself (a record
+// of another type than its user expects) may crash assimp: read only files you trust.
 
 #pragma once
 

@@ -266,10 +266,15 @@ TEST(Scene, JoinsCollinearEdgesAndCoplanarFaces) {
   }
 }
 
-// A chimney flush with the wall: the wall's plane goes on, but the roof's edges end
-// there.
-TEST(Scene, DoesNotJoinEdgesWhereAThirdOneMeets) {
-  // A sheet of two coplanar squares and a fin standing on the line between them.
+TEST(Scene, DoesNotJoinEdgesWhereOthersMeet) {
+  // A square with a corner inside a side, and a triangle that hangs from there.
+  const Scene hanging(soup(
+      {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {1, -1, 1}, {1, -1, 2}},
+      {{0, 1, 2, 3, 4}, {1, 5, 6}}));
+  check_invariants(hanging);
+  EXPECT_EQ(hanging.edges().size(), 8u);
+  EXPECT_EQ(hanging.corners().size(), 7u);
+  // A square with a corner inside a side, half of which carries a fin.
   const Scene scene(
       soup({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {0, 1, 0}, {1, 1, 1}},
            {{0, 1, 2, 3, 4}, {3, 2, 5}}));
