@@ -26,6 +26,7 @@ struct AnalyseOptions : CommonOptions {
   std::string folder = "sightline-report";
   double budget = std::numeric_limits<double>::infinity();
   std::vector<std::string> only;
+  std::string up;
   std::vector<double> region;
 };
 
@@ -155,25 +156,18 @@ std::string pair_picture(const SceneView& view, const Canvas& canvas, const Scen
   return encode_png(canvas.picture(marked.drawing));
 }
 
-std::vector<PagePicture> draw_pictures(
-    const Scene& scene, const OcclusionIndex& index, const Skeleton& skeleton,
-    const Highlights& highlights, const std::optional<std::array<Point, 2>>& region) {
-  SceneView view = view_scene(scene);
+std::vector<PagePicture> draw_pictures(const Scene& scene, const OcclusionIndex& index,
+                                       const Skeleton& skeleton,
+                                       const Highlights& highlights,
+                                       const std::optional<std::array<Point, 2>>& region,
+                                       int up_axis) {
+  ViewOptions view_options;
+  view_options.up_axis = up_axis;
+  view_options.focus = region;
+  SceneView view = view_scene(scene, view_options);
   if (region) add_box(view.drawing, *region, {0.84F, 0.15F, 0.24F});
   const Canvas canvas(view.drawing, view.camera);
   std::vector<PagePicture> pictures;
-
-  SceneView overview = view;
-  const std::vector<int> nodes = evenly_spread(skeleton.nodes.size(), kDrawnNodes);
-  const double crowd = static_cast<double>(nodes.size());
-  add_nodes(overview.drawing, skeleton, nodes,
-            static_cast<float>(std::clamp(300 / (crowd + 1), 0.16, 0.9)),
-            crowd > 500 ? 1.1F : 1.8F);
-  pictures.push_back({"nodes.png", encode_png(canvas.picture(overview.drawing)),
-                      "Extremal stabbing lines",
-                      drawn_of(nodes.size(), skeleton.nodes.size(),
-                               "lines, each between its outermost contacts") +
-                          " " + node_legend(node_counts(skeleton))});
 
   if (!highlights.vertex.empty()) {
     const std::vector<RuledStrip> strips =
@@ -198,7 +192,8 @@ std::vector<PagePicture> draw_pictures(
     picture.file = "edge.png";
     picture.title = "All events of one edge";
     picture.caption = drawn_of(strips.size(), highlights.edge.size(), "line sets") +
-                      " The edge that most vertices see, out to the faces behind it.";
+                      " The edge that most vertices see, out to the faces behind it. An "
+                      "EV line set is a fan through its vertex.";
     pictures.push_back(std::move(picture));
   }
   if (!highlights.pair.empty()) {
@@ -214,6 +209,17 @@ std::vector<PagePicture> draw_pictures(
              html_escaped(scene.objects()[scene.edges()[one.edge].object].name),
              "The same pair: <code>sightline skeleton --between A B</code>.")});
   }
+  SceneView overview = view;
+  const std::vector<int> nodes = evenly_spread(skeleton.nodes.size(), kDrawnNodes);
+  const double crowd = static_cast<double>(nodes.size());
+  add_nodes(overview.drawing, skeleton, nodes,
+            static_cast<float>(std::clamp(300 / (crowd + 1), 0.16, 0.9)),
+            crowd > 500 ? 1.1F : 1.8F);
+  pictures.push_back({"nodes.png", encode_png(canvas.picture(overview.drawing)),
+                      "Extremal stabbing lines",
+                      drawn_of(nodes.size(), skeleton.nodes.size(),
+                               "lines, each between its outermost contacts") +
+                          " " + node_legend(node_counts(skeleton))});
   return pictures;
 }
 
@@ -303,7 +309,8 @@ ExitStatus run(const AnalyseOptions& options) {
   }
   log.done("VTK files");
   std::vector<PagePicture> pictures =
-      draw_pictures(scene, index, skeleton, highlights, request.region);
+      draw_pictures(scene, index, skeleton, highlights, request.region,
+                    options.up.empty() ? -1 : options.up[0] - 'x');
   for (const PagePicture& picture : pictures) {
     write_whole(folder / picture.file, picture.png);
     files.push_back(picture.file);
@@ -367,6 +374,11 @@ Command add_analyse_command(CLI::App& app) {
                    "(default: all that apply)")
       ->type_name("NAME,...")
       ->delimiter(',');
+  command
+      ->add_option("--up", options->up,
+                   "the axis that points up in the pictures (default: guessed)")
+      ->type_name("x|y|z")
+      ->check(CLI::IsMember({"x", "y", "z"}));
   add_region_option(*command, options->region);
   add_budget_option(*command, options->budget);
   add_common_options(*command, *options);

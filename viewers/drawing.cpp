@@ -119,10 +119,10 @@ void add_edges(Drawing& drawing, const Scene& scene, const std::vector<char>& sh
   }
 }
 
-/// The camera that looks along -towards_eye and just holds the scene's bounding box.
-Camera frame(const Scene& scene, const Point& towards_eye, const Point& up,
+/// The camera that looks along -towards_eye and just holds a box.
+Camera frame(const std::array<Point, 2>& box, const Point& towards_eye, const Point& up,
              double aspect) {
-  const auto [low, high] = scene.bounds();
+  const auto& [low, high] = box;
   Camera camera;
   camera.target = 0.5 * (low + high);
   camera.up = up;
@@ -160,9 +160,10 @@ Camera frame(const Scene& scene, const Point& towards_eye, const Point& up,
   return camera;
 }
 
-double entropy(const std::vector<int>& ids) {
+/// Of the facets that count.
+double entropy(const std::vector<int>& ids, const std::vector<char>& counts) {
   std::map<int, int> pixels;
-  for (const int id : ids) ++pixels[id];
+  for (const int id : ids) ++pixels[id < 0 || counts[id] ? id : -1];
   double sum = 0;
   for (const auto& [id, count] : pixels) {
     if (id < 0) continue;
@@ -202,9 +203,11 @@ int guess_up_axis(const Scene& scene) {
     if (axis != thinnest) others = std::min(others, extent[axis]);
   }
   if (extent[thinnest] < 0.7 * others) return thinnest;
-  const std::string& name = scene.soup().source;
-  const auto ends = [&](std::string_view suffix) { return name.ends_with(suffix); };
-  return ends(".obj") || ends(".OBJ") || ends(".gltf") || ends(".glb") ? 1 : 2;
+  const std::string_view name = scene.soup().source;
+  for (const std::string_view upright : {".stl", ".STL", ".ifc", ".IFC", ".ac", ".AC"}) {
+    if (name.ends_with(upright)) return 2;
+  }
+  return 1;
 }
 
 SceneView view_scene(const Scene& scene, const ViewOptions& options) {
@@ -214,6 +217,21 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
   ahead[(axis + 1) % 3] = 1;
   const Point aside = up.cross(ahead);
   const double aspect = static_cast<double>(options.width) / options.height;
+
+  std::array<Point, 2> framed = scene.bounds();
+  std::vector<char> counts(scene.facets().size(), 1);
+  if (options.focus) {
+    const auto& [low, high] = *options.focus;
+    const Point margin = 0.25 * (high - low);
+    framed = {framed[0].cwiseMax(low - margin), framed[1].cwiseMin(high + margin)};
+    if ((framed[0].array() > framed[1].array()).any()) framed = *options.focus;
+    for (std::size_t f = 0; f < counts.size(); ++f) {
+      counts[f] = std::ranges::any_of(scene.facets()[f].faces, [&](int face) {
+        const Point& p = scene.point(scene.face_points(face)[0]);
+        return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+      });
+    }
+  }
 
   const bool large = scene.faces().size() > 20000;
   const int turns = large ? 6 : 12;
@@ -227,8 +245,8 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
           std::sin(elevation) * up +
           std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside);
       const Drawing faces = draw_faces(scene, faces_shown(scene, direction));
-      const Camera camera = frame(scene, direction, up, aspect);
-      const double score = entropy(visible_ids(faces, camera, 168, 118));
+      const Camera camera = frame(framed, direction, up, aspect);
+      const double score = entropy(visible_ids(faces, camera, 168, 118), counts);
       if (score > best_score * (1 + 1e-9)) {
         best_score = score;
         best = direction;
@@ -238,7 +256,7 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
 
   SceneView view;
   const std::vector<char> shown = faces_shown(scene, best);
-  view.camera = frame(scene, best, up, aspect);
+  view.camera = frame(framed, best, up, aspect);
   view.drawing = draw_faces(scene, shown);
   view.polygon_shown.assign(scene.soup().polygons.size(), 0);
   for (std::size_t f = 0; f < shown.size(); ++f) {
@@ -314,8 +332,11 @@ void add_strip(SceneView& view, const Scene& scene, const Skeleton& skeleton,
       view.drawing.veils.push_back(
           {{v, a.points[end], b.points[end]}, colour, lands ? opacity : 0.3F * opacity});
       if (lands) {
-        view.drawing.strokes.push_back(
-            {{a.points[end], b.points[end]}, colour, 2.2F, std::min(1.0F, 9 * opacity)});
+        view.drawing.strokes.push_back({{a.points[end], b.points[end]},
+                                        colour,
+                                        2.2F,
+                                        std::min(1.0F, 9 * opacity),
+                                        std::min(0.25F, 2 * opacity)});
       }
     }
   }

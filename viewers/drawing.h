@@ -10,8 +10,8 @@
 
 namespace sightline::viewers {
 
-/// The axis (0, 1, 2) that points up: the thinnest one of a flat scene, otherwise y for
-/// OBJ and glTF files and z for others.
+/// The axis (0, 1, 2) that points up: the thinnest one of a flat scene, otherwise y, as
+/// modellers and scanners have it, but z for STL, IFC and AC3D.
 [[nodiscard]] int guess_up_axis(const Scene& scene);
 
 /// True for objects that enclose or carry the others (walls, ground): thin in one
@@ -22,6 +22,8 @@ namespace sightline::viewers {
 struct ViewOptions {
   int up_axis = -1;  ///< 0, 1, 2; -1 to guess
   int width = 1400, height = 980;
+  /// What to look at: the camera frames half as much again; everything when empty.
+  std::optional<std::array<Point, 2>> focus;
 };
 
 /// A scene ready to be drawn on.

@@ -312,8 +312,11 @@ std::string report_page(const Json& report, const std::vector<PagePicture>& pict
   const Json& skeleton = report["skeleton"];
   std::int64_t arcs = 0, nodes = 0;
   for (const auto& [kind, n] : skeleton["arcs"].items()) arcs += n.get<std::int64_t>();
-  for (const auto& [kind, n] : skeleton["nodes"].items()) {
-    if (n.is_number()) nodes += n.get<std::int64_t>();
+  const Json& by_kind = skeleton["nodes"];
+  for (const Json& counts : {by_kind, by_kind.value("end", Json::object())}) {
+    for (const auto& [kind, n] : counts.items()) {
+      if (n.is_number()) nodes += n.get<std::int64_t>();
+    }
   }
   const std::string scene = html_escaped(report["scene"]["file"].get<std::string>());
   std::string html = fmt::format(

@@ -71,14 +71,14 @@ void write_picture(const ViewCommandOptions& options, const Shown& shown) {
     const Skeleton& skeleton = *shown.skeleton;
     const std::vector<int> arcs = evenly_spread(skeleton.arcs.size(), 1500);
     add_arcs(view.drawing, shown.scene, skeleton, arcs,
-             static_cast<float>(std::clamp(12 / (arcs.size() + 1.0), 0.01, 0.25)));
+             static_cast<float>(std::clamp(8 / (arcs.size() + 1.0), 0.004, 0.2)));
     add_nodes(view.drawing, skeleton, evenly_spread(skeleton.nodes.size(), 4000), 0.4F,
               1.2F);
   }
   // Many marks are drawn fainter, so that they stay readable.
   const double veils = static_cast<double>(shown.veils.size());
   for (VeilTriangle veil : shown.veils) {
-    veil.opacity = static_cast<float>(std::clamp(40 / (veils + 1), 0.006, 0.2));
+    veil.opacity = static_cast<float>(std::clamp(8 / (veils + 1), 0.002, 0.2));
     view.drawing.veils.push_back(veil);
   }
   const double strokes = static_cast<double>(shown.strokes.size());
