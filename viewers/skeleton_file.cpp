@@ -57,6 +57,29 @@ void add_far_ends(Json& element, const Scene& scene, const std::optional<FarEnds
   element["free_segment"] = {{"points", points_json(ends->points)}, {"ends", far}};
 }
 
+/// The contact with the arc's own edge, at parameter 1, which the listed line passes at a
+/// distance below any rounding (see far_ends.cpp): put in its place among the others.
+void add_edge_contact(Json& arc, const Scene& scene, const Edge& edge) {
+  if (!arc.contains("contacts")) return;
+  Json touches = Json::array();
+  for (const Edge::Side& side : edge.sides) {
+    touches.push_back({{"face", scene.faces()[side.face].source}, {"at", "edge"}});
+  }
+  const Json own{
+      {"kind", "graze"}, {"from", 1.0}, {"to", 1.0}, {"touches", std::move(touches)}};
+  Json ordered = Json::array();
+  bool placed = false;
+  for (const Json& contact : arc["contacts"]) {
+    if (!placed && contact["from"].get<double>() > 1) {
+      ordered.push_back(own);
+      placed = true;
+    }
+    ordered.push_back(contact);
+  }
+  if (!placed) ordered.push_back(own);
+  arc["contacts"] = std::move(ordered);
+}
+
 Generator generator_from(const Json& j) {
   const std::string type = j.at("type").get<std::string>();
   const auto kind = type == "vertex" ? GeneratorKind::Vertex
@@ -135,6 +158,7 @@ void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& sc
       arc["line"] = points_json(
           {scene.point(a.vertex), point_on_edge(scene, scene.edges()[a.edge], middle)});
       add_far_ends(arc, scene, far_ends(scene, *index, a, middle));
+      add_edge_contact(arc, scene, scene.edges()[a.edge]);
     }
     stream << (i == 0 ? "\n   " : ",\n   ") << arc.dump();
   }

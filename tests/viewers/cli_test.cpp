@@ -12,6 +12,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -230,6 +231,15 @@ TEST_F(Cli, SkeletonCountsAndListAgree) {
     for (const json& n : arc.at("nodes")) EXPECT_LT(n.get<std::size_t>(), nodes.size());
     if (arc.at("free_segment").is_null()) continue;
     ++with_far_ends;
+    // Vertex and edge are among the contacts, which are in order.
+    double last = -1e300;
+    std::set<double> at;
+    for (const json& contact : arc.at("contacts")) {
+      EXPECT_LE(last, contact.at("from"));
+      last = contact.at("from");
+      at.insert(last);
+    }
+    EXPECT_TRUE(at.contains(0) && at.contains(1));
     for (const json& end : arc.at("free_segment").at("ends")) {
       EXPECT_TRUE(end == "outside" || !end.at("faces").empty());
     }
