@@ -13,21 +13,22 @@
 // - a face that L crosses at x_i is an obstacle at that instant: a closed *sector* of the
 //   plane (all of it, a half-plane, or an angle at a corner);
 // - a face that contains a stretch [x_i, x_j] of L is a *barrier* meanwhile: one ray or
-// two
-//   opposite rays that w must not cross.
+//   two opposite rays that w must not cross.
+// A motion that crosses a ray just at an instant is decided by the second order: when, in
+// proportion to its distance from L, it crosses, against the *slopes* of the edges there.
 // The contact blocks iff no w in general position avoids all of them.
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/Mpzf.h>
-#include <CGAL/QP_functions.h>
-#include <CGAL/QP_models.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "linespace/contact_internal.h"
 
@@ -53,7 +54,6 @@ Ring ring(const mpz_t z) {
 }
 
 Gmpq gmpq(const Ring& r) { return Gmpq(r); }
-Gmpq gmpq(const Rational& r) { return Gmpq(r.backend().data()); }
 Rational rational(const Gmpq& q) { return Rational(q.mpq()); }
 
 int sign_of(const Ring& r) { return static_cast<int>(CGAL::sign(r)); }
@@ -99,6 +99,13 @@ bool same_direction(const Ray& p, const Ray& q) {
   return cross(p, q) == 0 && dot(p, q) > 0;
 }
 
+// A corner of a face as seen along L.
+struct Corner {
+  int point;
+  Ring v;  // v_k
+  Ray u;
+};
+
 // What a face is to a moving point w: see the top of this file.
 enum class Obstacle : std::uint8_t { None, Full, Sector, Barrier };
 
@@ -107,10 +114,10 @@ struct Hit {
   int face;
   TouchKind kind;
   Obstacle obstacle;
-  bool plus = false, minus = false;  // Barrier: along the ray, against it
   int index = -1;
   int from, to;
   int start = -1, end = -1;  // Sector: counter-clockwise from start, at most a half turn
+  int loop = -1;             // in L's plane: where the ids of its corners begin
 };
 
 // A position x = num / den along L, den > 0.
@@ -120,21 +127,32 @@ struct Position {
   std::optional<Rational> t;
 };
 
+// ---- Obstacles. ----
+
 struct SectorAt {
   int instant;
-  const Ray *start, *end;
+  const Corner *start, *end;  // counter-clockwise
 };
 
-struct BarrierDuring {
-  int from, to;  // instants
+// One side of a face in a plane with L: along `ray` it is up from `from` to `to`.  At a
+// small distance r from L its ends are at from + r * from_slope and to + r * to_slope;
+// none where the judged part of L ends.  from = to where the face meets L in a corner.
+struct Fin {
+  Rational from, to;
+  std::optional<Rational> from_slope, to_slope;
   const Ray* ray;
-  bool plus, minus;
 };
 
 // Directions just counter-clockwise of r are in the sector.
 bool contains_after(const SectorAt& s, const Ray& r) {
-  if (same_direction(*s.start, r)) return true;
-  return cross(*s.start, r) > 0 && cross(r, *s.end) > 0;
+  if (same_direction(s.start->u, r)) return true;
+  return cross(s.start->u, r) > 0 && cross(r, s.end->u) > 0;
+}
+
+// Directions just clockwise of r are in the sector.
+bool contains_before(const SectorAt& s, const Ray& r) {
+  if (same_direction(s.end->u, r)) return true;
+  return cross(s.start->u, r) > 0 && cross(r, s.end->u) > 0;
 }
 
 // The union of the closed sectors is the whole plane: no sector's end is followed by a
@@ -143,45 +161,309 @@ bool covers(std::span<const SectorAt> sectors) {
   if (sectors.size() < 2) return false;
   return std::all_of(sectors.begin(), sectors.end(), [&](const SectorAt& s) {
     return std::any_of(sectors.begin(), sectors.end(), [&](const SectorAt& other) {
-      return contains_after(other, *s.end);
+      return contains_after(other, s.end->u);
     });
   });
 }
 
-// Decides whether some w passes, once no constant w does.
-//
-// The critical rays and their opposites cut the plane into 2m cells.  A straight motion
-// that misses the origin turns by less than a half turn in all, in one sense, so it is
-// described by the cell it is in at each instant; between two instants it crosses the
-// rays between the two cells, and no ray may be one of a barrier that is up.  Whether
-// cells c_0, ..., c_k are those of a motion is a linear program in (w(x_0), w(x_k)). Only
-// from a cell straight to the opposite one is the sense not given by the cells; then all
-// cells before are the first and all after the second, and both senses are possible: in
-// the coordinates of the cell's two sides both must change sign between the two instants,
-// in any order.
-//
-// Which cells can be followed by which is found first, without regard to straightness
-// (passable_); only what can be completed so is tried, and asked of the linear program.
-class MotionSearch {
- public:
-  MotionSearch(std::vector<Rational> instants, std::span<const SectorAt> sectors,
-               std::span<const BarrierDuring> barriers)
-      : instants_(std::move(instants)) {
-    cut_into_cells(sectors, barriers);
-    const std::size_t cells = rays_.size(), count = instants_.size();
-    closed_.assign(count, std::vector<char>(cells, 0));
-    for (std::size_t c = 0; c < cells; ++c) {
-      const Ray& r = rays_[c];
-      for (const SectorAt& s : sectors) {
-        if (contains_after(s, r)) closed_[s.instant][c] = 1;
+// The unit of distances along a ray, the same for all that have its direction.
+const Ring& coordinate(const Ray& r) { return sign_of(r.x) != 0 ? r.x : r.y; }
+
+Rational measure(const Ray& r) { return abs(rational(gmpq(coordinate(r)))); }
+
+// Where in time a motion may cross a ray, in second order: an open interval of slopes.
+struct Opening {
+  std::optional<Rational> low, high;
+};
+
+using CornerTimes = std::function<Rational(const Corner&)>;
+
+// A motion whose w is on a ray, at distance r, at time t crosses it at t + r k to second
+// order, k being ours to choose.  A sector's side on that ray runs from (t, L) to
+// (t + r s, distance r), s being its slope: a sector on the side that w leaves must be
+// met after the crossing, k < s, one on the side that w enters before it.  A fin along
+// the ray must not be up.  All k that do, counter-clockwise for sense > 0.
+std::vector<Opening> openings(int sense, const Ray& ray, const Rational& t,
+                              std::span<const SectorAt> sectors,
+                              std::span<const Fin* const> fins,
+                              const CornerTimes& corner_time) {
+  std::vector<const Corner*> leaving, entering;
+  for (const SectorAt& s : sectors) {
+    if (cross(s.start->u, ray) > 0 && cross(ray, s.end->u) > 0) return {};
+    if (same_direction(s.end->u, ray)) leaving.push_back(s.end);
+    if (same_direction(s.start->u, ray)) entering.push_back(s.start);
+  }
+  for (const Corner* c : leaving) {
+    if (std::find(entering.begin(), entering.end(), c) != entering.end()) return {};
+  }
+  if (sense < 0) std::swap(leaving, entering);
+  Opening all;
+  const auto before = [&](const Rational& slope) {
+    if (!all.high || slope < *all.high) all.high = slope;
+  };
+  const auto after = [&](const Rational& slope) {
+    if (!all.low || slope > *all.low) all.low = slope;
+  };
+  const auto slope = [&](const Corner* c) {
+    return Rational(Rational(corner_time(*c) - t) / measure(c->u));
+  };
+  std::vector<std::pair<Rational, Rational>> wedges;
+  for (const Fin* f : fins) {
+    if (t < f->from || f->to < t) continue;
+    if (f->from == f->to) {
+      wedges.emplace_back(*f->from_slope, *f->to_slope);
+    } else if (f->from == t) {
+      if (f->from_slope) before(*f->from_slope);
+    } else if (f->to == t) {
+      if (f->to_slope) after(*f->to_slope);
+    } else {
+      return {};
+    }
+  }
+  for (const Corner* c : leaving) before(slope(c));
+  for (const Corner* c : entering) after(slope(c));
+  if (all.low && all.high && *all.low >= *all.high) return {};
+  std::sort(wedges.begin(), wedges.end());
+  std::vector<Opening> out;
+  for (const auto& [low, high] : wedges) {
+    if (all.high && low >= *all.high) break;
+    if (!all.low || low > *all.low) out.push_back({all.low, low});
+    if (!all.low || high > *all.low) all.low = high;
+  }
+  if (!all.high || !all.low || *all.low < *all.high) out.push_back(std::move(all));
+  return out;
+}
+
+// The sectors of one instant close each of their sides to second order too.
+bool closed_on_rays(std::span<const SectorAt> sectors, const Rational& t,
+                    const CornerTimes& corner_time) {
+  for (const SectorAt& s : sectors) {
+    for (const Corner* c : {s.start, s.end}) {
+      for (const int sense : {1, -1}) {
+        if (!openings(sense, c->u, t, sectors, {}, corner_time).empty()) return false;
       }
     }
-    up_.assign(count - 1, std::vector<char>(cells, 0));
-    for (const BarrierDuring& b : barriers) {
-      for (std::size_t c = 0; c < cells; ++c) {
-        if ((b.plus && same_direction(*b.ray, rays_[c])) ||
-            (b.minus && same_direction(-*b.ray, rays_[c]))) {
-          for (int gap = b.from; gap < b.to; ++gap) up_[gap][c] = 1;
+  }
+  return true;
+}
+
+// ---- Strict linear inequalities. ----
+
+// A row, or a solution, of a homogeneous system.  `r` is `e` times some power of two,
+// rounded: each entry within a relative 2^-52 or 2^-1022.
+struct Row {
+  static constexpr int kMax = 5;
+  std::array<Ring, kMax> e;
+  std::array<double, kMax> r{};
+
+  void round(int dimension) {
+    double largest = 0;
+    for (int i = 0; i < dimension; ++i) {
+      r[i] = CGAL::to_double(e[i]);
+      largest = std::max(largest, std::abs(r[i]));
+    }
+    if (!(largest > 1e-290 && largest < 1e290)) {
+      r.fill(std::numeric_limits<double>::quiet_NaN());  // only exact from here
+      return;
+    }
+    int exponent = 0;
+    std::frexp(largest, &exponent);
+    for (int i = 0; i < dimension; ++i) r[i] = std::ldexp(r[i], -exponent);
+  }
+};
+
+Ring exact_dot(const Row& p, const Row& q, int dimension) {
+  Ring sum(0);
+  for (int i = 0; i < dimension; ++i) sum = sum + Ring(p.e[i] * q.e[i]);
+  return sum;
+}
+
+// Each rounded product is within 5 ulp, the sum of five within 4 more: 12 ulp bounds it
+// with the higher orders.
+int dot_sign(const Row& p, const Row& q, int dimension) {
+  double sum = 0, size = 0;
+  for (int i = 0; i < dimension; ++i) {
+    const double product = p.r[i] * q.r[i];
+    sum += product;
+    size += std::abs(product);
+  }
+  const double bound = 12 * kUlp * size + kUnderflow;
+  if (sum > bound) return 1;
+  if (sum < -bound) return -1;
+  return sign_of(exact_dot(p, q, dimension));
+}
+
+int pivot_of(const Row& row, int dimension) {
+  int best = -1;
+  for (int i = 0; i < dimension; ++i) {
+    if (sign_of(row.e[i]) == 0) continue;
+    if (best < 0 || std::abs(row.r[i]) > std::abs(row.r[best])) best = i;
+  }
+  return best;
+}
+
+// The row on the hyperplane normal * c = 0, without the pivot's unknown.
+Row restricted(const Row& row, const Row& normal, int pivot, int dimension) {
+  Row out;
+  const bool negative = sign_of(normal.e[pivot]) < 0;
+  for (int i = 0, j = 0; i < dimension; ++i) {
+    if (i == pivot) continue;
+    Ring e = Ring(row.e[i] * normal.e[pivot]) - Ring(row.e[pivot] * normal.e[i]);
+    out.e[j++] = negative ? Ring(-e) : e;
+  }
+  out.round(dimension - 1);
+  return out;
+}
+
+// Some c with row * c > 0 for all rows.  One row after the other: if the c found so far
+// fails the next row, and another c does not, then one on that row's hyperplane is
+// positive on the rows before, which is the same question in one unknown less.
+// Cost: linear in the rows, times the factorial of the dimension, for rows in random
+// order.  (R. Seidel, Small-dimensional linear programming and convex hulls made easy,
+// 1991; here without an objective.)
+bool positive_point(std::span<const Row> rows, int dimension, Row& c) {
+  if (rows.empty()) {
+    for (int i = 0; i < dimension; ++i) c.e[i] = Ring(1);
+    c.round(dimension);
+    return true;
+  }
+  if (dimension == 0) return false;
+  c = rows[0];
+  for (std::size_t n = 0; n < rows.size(); ++n) {
+    if (dot_sign(rows[n], c, dimension) > 0) continue;
+    const Row& normal = rows[n];
+    const int pivot = pivot_of(normal, dimension);
+    if (pivot < 0) return false;
+    std::vector<Row> reduced;
+    reduced.reserve(n);
+    for (std::size_t j = 0; j < n; ++j) {
+      reduced.push_back(restricted(rows[j], normal, pivot, dimension));
+    }
+    Row inside;
+    if (!positive_point(reduced, dimension - 1, inside)) return false;
+    // Back to all unknowns, times |normal[pivot]|.
+    Row on;
+    const bool negative = sign_of(normal.e[pivot]) < 0;
+    const Ring size = negative ? Ring(-normal.e[pivot]) : normal.e[pivot];
+    Ring rest(0);
+    for (int i = 0, j = 0; i < dimension; ++i) {
+      if (i == pivot) continue;
+      rest = rest + Ring(normal.e[i] * inside.e[j]);
+      on.e[i] = Ring(size * inside.e[j]);
+      ++j;
+    }
+    on.e[pivot] = negative ? rest : Ring(-rest);
+    // Off the hyperplane, half as far as the rows before allow.
+    Ring height(0), loss(0);  // the smallest height / loss
+    for (std::size_t j = 0; j < n; ++j) {
+      const Ring fall = exact_dot(rows[j], normal, dimension);
+      if (sign_of(fall) >= 0) continue;
+      const Ring up = exact_dot(rows[j], on, dimension);
+      if (sign_of(loss) == 0 || sign_of(Ring(up * loss) - Ring(height * -fall)) < 0) {
+        height = up;
+        loss = -fall;
+      }
+    }
+    if (sign_of(loss) == 0) height = loss = Ring(1);
+    const Ring twice = loss + loss;
+    for (int i = 0; i < dimension; ++i) {
+      c.e[i] = Ring(twice * on.e[i]) + Ring(height * normal.e[i]);
+    }
+    c.round(dimension);
+    // Shorter numbers, where they do as well.
+    Row rounded;
+    rounded.r = c.r;
+    if (!std::isnan(c.r[0])) {
+      for (int i = 0; i < dimension; ++i) rounded.e[i] = Ring(c.r[i]);
+      if (std::all_of(rows.begin(), rows.begin() + n + 1, [&](const Row& row) {
+            return dot_sign(row, rounded, dimension) > 0;
+          })) {
+        c = rounded;
+      }
+    }
+  }
+  return true;
+}
+
+// Some c has row * c > 0 for all rows and row * c = 0 for all equalities.
+bool feasible(std::vector<Row> rows, std::vector<Row> equalities, int dimension) {
+  while (!equalities.empty()) {
+    const Row normal = equalities.back();
+    equalities.pop_back();
+    const int pivot = pivot_of(normal, dimension);
+    if (pivot < 0) continue;
+    for (std::vector<Row>* part : {&rows, &equalities}) {
+      for (Row& row : *part) row = restricted(row, normal, pivot, dimension);
+    }
+    --dimension;
+  }
+  Row c;
+  return positive_point(rows, dimension, c);
+}
+
+// ---- Motions. ----
+
+// Decides whether some w passes, once no constant w does.
+//
+// The critical rays and their opposites cut the plane into cells.  A straight motion that
+// misses the origin turns by less than a half turn in all, in one sense, so it is
+// described by where it is at each instant, in a cell or on a ray; between two instants
+// it crosses the rays between the two, and no ray may be one of a barrier that is up.
+// Whether a sequence of such places is that of a motion is a question of linear
+// inequalities in the four numbers of w. Only from a cell straight to the opposite one is
+// the sense not given by the cells; then all cells before are the first and all after the
+// second, and both senses are possible: in the coordinates of the cell's two sides both
+// must change sign between the two instants, in any order.
+//
+// On a ray the second order decides (openings).  With the sense h = +-1, scaled from
+// cross(w0, w1), a line near L passes a side of slope s, along the unit ray e, at the
+// instant x on the side that is the sign of cross(e, W(x)) + s h, where W is the line's
+// own w, as large as we like along a motion in first order that solves the system with
+// all slopes zero.  So both orders together are exact: some line near L passes iff some
+// motion has open places only and some W has its slopes in the openings.  W's values on
+// up to three rays are independent; on more they are a second system.
+//
+// Which places can be followed by which is found first, without regard to straightness
+// (passable_); only what can be completed so is tried, and asked of the inequalities.
+class MotionSearch {
+ public:
+  // Sectors by instant, fins by direction; `rays` are those that matter.
+  MotionSearch(std::vector<Rational> instants, std::span<const SectorAt> sectors,
+               std::span<const std::vector<const Fin*>> fins,
+               std::span<const Ray* const> rays, const CornerTimes& corner_time)
+      : instants_(std::move(instants)), corner_time_(corner_time) {
+    cut_into_cells(rays);
+    for (const Rational& t : instants_) {
+      const Rational after(t - instants_.front());
+      elapsed_.push_back({ring(mpq_numref(after.backend().data())),
+                          ring(mpq_denref(after.backend().data()))});
+    }
+    const std::size_t count = instants_.size();
+    sectors_at_.resize(count);
+    for (std::size_t first = 0, last; first < sectors.size(); first = last) {
+      const int i = sectors[first].instant;
+      for (last = first; last < sectors.size() && sectors[last].instant == i;) ++last;
+      sectors_at_[i] = sectors.subspan(first, last - first);
+    }
+    closed_.assign(count, std::vector<char>(2 * rays_.size(), 1));
+    for (std::size_t i = 0; i < count; ++i) {
+      for (int c = 0; c < ray_count(); ++c) {
+        closed_[i][2 * c + 1] =
+            std::any_of(sectors_at_[i].begin(), sectors_at_[i].end(),
+                        [&](const SectorAt& s) { return contains_after(s, rays_[c]); });
+      }
+    }
+    up_.assign(count - 1, std::vector<char>(rays_.size(), 0));
+    fins_.resize(rays_.size());
+    for (const std::vector<const Fin*>& direction : fins) {
+      for (int r = 0; r < ray_count(); ++r) {
+        if (!same_direction(*direction.front()->ray, rays_[r])) continue;
+        fins_[r] = direction;
+        for (std::size_t gap = 0; gap + 1 < count; ++gap) {
+          up_[gap][r] =
+              std::any_of(direction.begin(), direction.end(), [&](const Fin* f) {
+                return f->from <= instants_[gap] && f->to > instants_[gap];
+              });
         }
       }
     }
@@ -189,37 +471,32 @@ class MotionSearch {
 
   bool possible() {
     for (const int sense : {1, -1}) {
-      find_passable(sense);
-      for (int c = 0; c < size(); ++c) {
-        if (!passable(0, c, 0)) continue;
-        cells_.assign(1, c);
-        if (extend(sense, 0)) return true;
-      }
+      if (possible(sense)) return true;
+    }
+    for (const int sense : {1, -1}) {
+      if (open_rays(sense) && possible(sense)) return true;
     }
     return false;
   }
 
  private:
-  [[nodiscard]] int size() const { return static_cast<int>(rays_.size()); }
-  [[nodiscard]] int half() const { return size() / 2; }
-  [[nodiscard]] int wrapped(int c) const { return (c + 2 * size()) % size(); }
+  [[nodiscard]] int ray_count() const { return static_cast<int>(rays_.size()); }
+  // Places: 2 c is ray c, 2 c + 1 the cell from there to ray c + 1.
+  [[nodiscard]] int size() const { return 2 * ray_count(); }
+  [[nodiscard]] int half() const { return ray_count(); }
+  [[nodiscard]] int wrapped(int place) const { return (place + 2 * size()) % size(); }
+  static bool is_ray(int place) { return place % 2 == 0; }
 
-  // rays_: all critical rays and their opposites by angle, cell c from ray c to ray c
-  // + 1.
-  void cut_into_cells(std::span<const SectorAt> sectors,
-                      std::span<const BarrierDuring> barriers) {
+  // rays_: all critical rays and their opposites by angle.
+  void cut_into_cells(std::span<const Ray* const> rays) {
     std::vector<Ray> upper;
-    const auto add = [&](const Ray& r) {
-      const int y = sign_of(r.y);
-      upper.push_back(y > 0 || (y == 0 && sign_of(r.x) > 0) ? r : -r);
-    };
-    for (const SectorAt& s : sectors) {
-      add(*s.start);
-      add(*s.end);
+    for (const Ray* r : rays) {
+      const int y = sign_of(r->y);
+      upper.push_back(y > 0 || (y == 0 && sign_of(r->x) > 0) ? *r : -*r);
     }
-    for (const BarrierDuring& b : barriers) add(*b.ray);
     // A cell must be less than a half-plane: rays in two directions at least.
-    add(Ray(-upper.front().y, upper.front().x));
+    upper.emplace_back(Ring(1), Ring(0));
+    if (sign_of(upper.front().y) == 0) upper.emplace_back(Ring(0), Ring(1));
     std::sort(upper.begin(), upper.end(),
               [](const Ray& p, const Ray& q) { return cross(p, q) > 0; });
     upper.erase(std::unique(upper.begin(), upper.end(),
@@ -229,17 +506,55 @@ class MotionSearch {
     for (const Ray& r : upper) rays_.push_back(-r);
   }
 
-  // From the cell at instant i, having turned by `turned` cells so far, free cells lead
-  // to the last instant.
-  [[nodiscard]] char& passable(std::size_t i, int cell, int turned) {
-    return passable_[(i * rays_.size() + static_cast<std::size_t>(cell)) *
+  // Opens the places on rays where the second order allows to cross.  False when this
+  // adds nothing: where a ray can as well be crossed a little earlier or later, a motion
+  // on it can be moved off, unless it has no freedom left, being on four.
+  bool open_rays(int sense) {
+    const std::size_t count = instants_.size();
+    openings_.assign(count, std::vector<std::vector<Opening>>(rays_.size()));
+    bool adds = false;
+    std::size_t bounded = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      bool bound_here = false;
+      for (int r = 0; r < ray_count(); ++r) {
+        std::vector<Opening>& open = openings_[i][r];
+        open = openings(sense, rays_[r], instants_[i], sectors_at_[i], fins_[r],
+                        corner_time_);
+        closed_[i][2 * r] = open.empty();
+        if (open.empty()) continue;
+        const int left = wrapped(2 * r - sense), entered = wrapped(2 * r + sense);
+        const bool earlier = !closed_[i][entered] && (i == 0 || !up_[i - 1][r]);
+        const bool later = !closed_[i][left] && (i + 1 == count || !up_[i][r]);
+        adds |= !earlier && !later;
+        bound_here |= open.front().low || open.front().high;
+      }
+      bounded += bound_here;
+    }
+    return adds || bounded >= 4;
+  }
+
+  bool possible(int sense) {
+    find_passable(sense);
+    for (int c = 0; c < size(); ++c) {
+      if (!passable(0, c, 0)) continue;
+      places_.assign(1, c);
+      if (extend(sense, 0)) return true;
+    }
+    return false;
+  }
+
+  // From the place at instant i, having turned by `turned` places so far, free places
+  // lead to the last instant.
+  [[nodiscard]] char& passable(std::size_t i, int place, int turned) {
+    return passable_[(i * static_cast<std::size_t>(size()) +
+                      static_cast<std::size_t>(place)) *
                          static_cast<std::size_t>(half() + 1) +
                      static_cast<std::size_t>(turned)];
   }
 
   void find_passable(int sense) {
     const std::size_t count = instants_.size();
-    passable_.assign(count * rays_.size() * static_cast<std::size_t>(half() + 1), 0);
+    passable_.assign(count * static_cast<std::size_t>(size() * (half() + 1)), 0);
     for (std::size_t i = count; i-- > 0;) {
       for (int c = 0; c < size(); ++c) {
         if (closed_[i][c]) continue;
@@ -254,32 +569,35 @@ class MotionSearch {
     }
   }
 
-  // Some step from a cell at instant i to a cell at the next, past no barrier, is
+  // Some step from a place at instant i to a place at the next, past no barrier, is
   // accepted.
   template <class Accept>
   bool any_step(int sense, std::size_t i, int here, int turned, Accept&& accept) const {
-    for (int step = 0; turned + step <= half(); ++step) {
-      if (step > 0) {
-        const int crossed = sense > 0 ? wrapped(here + step) : wrapped(here - step + 1);
-        if (up_[i][crossed]) return false;
+    // No motion stays on a ray or gets to the opposite one.
+    for (int step = is_ray(here) ? 1 : 0; turned + step <= half(); ++step) {
+      if (step > 1) {
+        const int crossed = wrapped(here + sense * (step - 1));
+        if (is_ray(crossed) && up_[i][crossed / 2]) return false;
       }
-      if (accept(wrapped(here + sense * step), step)) return true;
+      const int next = wrapped(here + sense * step);
+      if (is_ray(next) && turned + step == half()) continue;
+      if (accept(next, step)) return true;
     }
     return false;
   }
 
-  // Continues the cells found so far, having turned by `turned` cells in all.
+  // Continues the places found so far, having turned by `turned` in all.
   bool extend(int sense, int turned) {
-    const std::size_t i = cells_.size();
-    if (i == instants_.size()) return true;
-    return any_step(sense, i - 1, cells_.back(), turned, [&](int next, int step) {
+    const std::size_t i = places_.size();
+    if (i == instants_.size()) return slopes_fit(sense);
+    return any_step(sense, i - 1, places_.back(), turned, [&](int next, int step) {
       if (step == half()) return stays_free(next, i);
       if (!passable(i, next, turned + step)) return false;
-      cells_.push_back(next);
+      places_.push_back(next);
       // A step to the same cell needs no look of its own unless it is the last.
       const bool look = step > 0 || i + 1 == instants_.size();
       if ((!look || is_a_motion()) && extend(sense, turned + step)) return true;
-      cells_.pop_back();
+      places_.pop_back();
       return false;
     });
   }
@@ -291,59 +609,115 @@ class MotionSearch {
     return true;
   }
 
-  // On the left of ray j lie the cells j, ..., j + m - 1.
-  [[nodiscard]] bool left_of(int ray, int cell) const {
-    return wrapped(cell - ray) < half();
+  // The side of the line along a ray that a place is on.
+  [[nodiscard]] int side(int ray, int place) const {
+    const int turned = wrapped(place - 2 * ray);
+    return turned % half() == 0 ? 0 : turned < half() ? 1 : -1;
   }
 
-  // Some motion is in these cells at the first instants.  For each line through the
-  // origin the side of w is the sign of an affine function of time, so that two instants
-  // say all.
+  // factor * (x w_y - y w_x) at an instant, times a positive number, for w = A + x B.
+  [[nodiscard]] Row side_row(int ray, std::size_t i, int factor) const {
+    const Ray& r = rays_[ray];
+    const auto& [num, den] = elapsed_[i];
+    const Ring x = factor > 0 ? r.x : Ring(-r.x), y = factor > 0 ? Ring(-r.y) : r.y;
+    Row row;
+    row.e = {Ring(y * den), Ring(x * den), Ring(y * num), Ring(x * num), Ring(0)};
+    row.round(4);
+    return row;
+  }
+
+  // Some motion is at these places at the first instants.  For each line through the
+  // origin the side of w is the sign of an affine function of time, so that the instants
+  // next to its change say all.
   [[nodiscard]] bool is_a_motion() const {
-    const std::size_t count = cells_.size();
+    const std::size_t count = places_.size();
     if (count <= 2) return true;
-    CGAL::Quadratic_program<Gmpq> program(CGAL::LARGER, false, 0, false, 0);
-    int row = 0;
-    const Gmpq first = gmpq(instants_.front());
-    const Gmpq length = gmpq(instants_[count - 1]) - first;
+    std::vector<Row> rows, equalities;
     const auto require = [&](int ray, std::size_t i) {
-      const Gmpq s = (gmpq(instants_[i]) - first) / length;
-      const Gmpq x = gmpq(rays_[ray].x), y = gmpq(rays_[ray].y);
-      const int side = left_of(ray, cells_[i]) ? 1 : -1;
-      // side * (x w_y - y w_x) >= 1 for w = (1 - s) w(x_0) + s w(x_k); any positive bound
-      // does, because w can be scaled.
-      program.set_a(0, row, -y * (1 - s) * side);
-      program.set_a(1, row, x * (1 - s) * side);
-      program.set_a(2, row, -y * s * side);
-      program.set_a(3, row, x * s * side);
-      program.set_b(row, 1);
-      ++row;
+      const int s = side(ray, places_[i]);
+      if (s == 0) {
+        equalities.push_back(side_row(ray, i, 1));
+      } else {
+        rows.push_back(side_row(ray, i, s));
+      }
     };
-    for (int ray = 0; ray < half(); ++ray) {
-      // Lines that bound none of the cells say nothing that others do not.
-      if (std::none_of(cells_.begin(), cells_.end(), [&](int c) {
-            return c % half() == ray || (c + 1) % half() == ray;
+    for (int ray = 0; ray < half() / 2; ++ray) {
+      // Lines that bound none of the places say nothing that others do not.
+      if (std::none_of(places_.begin(), places_.end(), [&](int place) {
+            const int turned = wrapped(place - 2 * ray) % half();
+            return turned <= 1 || turned + 1 == half() ||
+                   (is_ray(place) && turned + 2 == half());
           })) {
         continue;
       }
-      std::size_t last = 0;  // last instant before the change of side
-      while (last + 1 < count &&
-             left_of(ray, cells_[last + 1]) == left_of(ray, cells_[0])) {
-        ++last;
+      std::size_t required = count;  // the last one that is
+      for (std::size_t i = 0; i + 1 < count; ++i) {
+        if (side(ray, places_[i]) == side(ray, places_[i + 1])) continue;
+        if (required != i) require(ray, i);
+        require(ray, required = i + 1);
       }
-      const bool changes = last + 1 < count;
-      require(ray, changes ? last : 0);
-      require(ray, changes ? last + 1 : count - 1);
+      if (required == count) {
+        require(ray, 0);
+        require(ray, count - 1);
+      }
     }
-    return !CGAL::solve_linear_program(program, Gmpq()).is_infeasible();
+    return feasible(std::move(rows), std::move(equalities), 4);
+  }
+
+  // Some W crosses the rays that the motion is on within their openings.
+  [[nodiscard]] bool slopes_fit(int sense) const {
+    std::vector<std::size_t> on;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (is_ray(places_[i])) on.push_back(i);
+    }
+    if (on.size() <= 3) return true;
+    // W and a last unknown z > 0, for homogeneity; the slope is -sense cross(e, W) / z.
+    std::vector<Row> rows(1);
+    rows[0].e[4] = Ring(1);
+    rows[0].round(5);
+    return slopes_fit(sense, on, rows);
+  }
+
+  bool slopes_fit(int sense, std::span<const std::size_t> on,
+                  std::vector<Row>& rows) const {
+    if (on.empty()) return feasible(rows, {}, 5);
+    const std::size_t i = on.front();
+    const int ray = places_[i] / 2;
+    const Ring& c = coordinate(rays_[ray]);
+    const Ring unit = Ring((sign_of(c) < 0 ? Ring(-c) : c) * elapsed_[i].second);
+    // factor * (slope - bound) > 0
+    const auto bound = [&](const Rational& slope, int factor) {
+      const Ring num = ring(mpq_numref(slope.backend().data())),
+                 den = ring(mpq_denref(slope.backend().data()));
+      Row row = side_row(ray, i, -sense * factor);
+      for (int j = 0; j < 4; ++j) row.e[j] = Ring(row.e[j] * den);
+      row.e[4] = Ring(num * unit);
+      if (factor > 0) row.e[4] = -row.e[4];
+      row.round(5);
+      rows.push_back(std::move(row));
+    };
+    return std::any_of(openings_[i][ray].begin(), openings_[i][ray].end(),
+                       [&](const Opening& o) {
+                         const std::size_t before = rows.size();
+                         if (o.low) bound(*o.low, 1);
+                         if (o.high) bound(*o.high, -1);
+                         const bool fits = slopes_fit(sense, on.subspan(1), rows);
+                         rows.resize(before);
+                         return fits;
+                       });
   }
 
   std::vector<Rational> instants_;
+  const CornerTimes& corner_time_;
+  std::vector<std::pair<Ring, Ring>> elapsed_;  // since the first, num / den
   std::vector<Ray> rays_;
-  std::vector<std::vector<char>> closed_;  // [instant][cell]
-  std::vector<std::vector<char>> up_;      // [between instant and the next][ray]
-  std::vector<int> cells_;                 // at the first instants
-  std::vector<char> passable_;             // see passable()
+  std::vector<std::span<const SectorAt>> sectors_at_;
+  std::vector<std::vector<const Fin*>> fins_;                // [ray]
+  std::vector<std::vector<char>> closed_;                    // [instant][place]
+  std::vector<std::vector<char>> up_;                        // [until the next][ray]
+  std::vector<std::vector<std::vector<Opening>>> openings_;  // [instant][ray]
+  std::vector<int> places_;                                  // at the first instants
+  std::vector<char> passable_;                               // see passable()
 };
 
 // The rounded line for the first stage: |a - line a| <= a_error, direction scaled to
@@ -363,12 +737,6 @@ ExactPoint exact_point(const Point& p) {
 struct LineScan::Impl {
   explicit Impl(const Scene& s) : scene(s) {}
 
-  struct Corner {
-    int point;
-    Ring v;  // v_k
-    Ray u;
-  };
-
   const Scene& scene;
   Ring alpha, origin[3], direction[3];
   bool alpha_is_one = true;
@@ -381,6 +749,7 @@ struct LineScan::Impl {
   std::vector<Hit> hits;        // by position `from` once sorted
   std::vector<int> first_hit;   // of each contact, and the end
   std::vector<int> contact_to;  // position
+  std::vector<int> loops;       // corner ids of faces in a plane with L, face by face
   // Scratch of the first stage, per corner of a face.
   std::vector<double> u_scratch;
   std::vector<std::int8_t> signs;
@@ -403,6 +772,9 @@ struct LineScan::Impl {
   void meet_in_plane(int face, std::span<const int> ids);
   [[nodiscard]] bool is_diagonal(int face, int side) const;
   void group();
+  [[nodiscard]] Rational corner_t(const Corner& c) const;
+  void add_fins(const Hit& hit, const Rational* lo, const Rational* hi,
+                std::vector<Fin>& fins) const;
   bool judge(int contact, const Rational* lo, const Rational* hi) const;
 };
 
@@ -698,8 +1070,6 @@ void LineScan::Impl::meet_in_plane(int face, std::span<const int> ids) {
   for (int i = 0; i < n; ++i) {
     const int j = i + 1 == n ? 0 : i + 1;
     const int s = side(i);
-    hit.plus |= s > 0;
-    hit.minus |= s < 0;
     if (s == 0) {
       hit.index = i;
       include(corner_position(ids[i]));
@@ -713,8 +1083,10 @@ void LineScan::Impl::meet_in_plane(int face, std::span<const int> ids) {
     hit.obstacle = Obstacle::None;
   } else {
     hit.index = -1;
-    hit.start = reference;
   }
+  hit.start = reference;
+  hit.loop = static_cast<int>(loops.size());
+  loops.insert(loops.end(), ids.begin(), ids.end());
   hits.push_back(hit);
 }
 
@@ -740,6 +1112,53 @@ void LineScan::Impl::group() {
   first_hit.push_back(static_cast<int>(hits.size()));
 }
 
+Rational LineScan::Impl::corner_t(const Corner& c) const {
+  return rational(gmpq(c.v) / gmpq(direction[k]) * scale);
+}
+
+// The sides of an edge-on face, cut to the part from lo to hi.
+void LineScan::Impl::add_fins(const Hit& hit, const Rational* lo, const Rational* hi,
+                              std::vector<Fin>& fins) const {
+  const int n = static_cast<int>(scene.face_points(hit.face).size());
+  const auto at = [&](int i) -> const Corner& {
+    return corners[loops[hit.loop + (i + n) % n]];
+  };
+  for (const int sign : {1, -1}) {
+    const auto on_this_side = [&](int i) {
+      return sign * dot(at(i).u, corners[hit.start].u) > 0;
+    };
+    int first = 0;
+    while (first < n && (!on_this_side(first) || on_this_side(first - 1))) ++first;
+    if (first == n) continue;
+    int last = first;
+    while (on_this_side(last + 1)) ++last;
+    // Where the side of the face from one corner to the other meets L, and its slope.
+    const auto end = [&](const Corner& inner, const Corner& outer) {
+      const Rational a = rational(gmpq(coordinate(inner.u)));
+      const Rational b =
+          outer.u.zero() ? Rational(0) : rational(gmpq(coordinate(outer.u)));
+      const Rational ti = corner_t(inner), to = corner_t(outer);
+      const Rational t(Rational(a * to - b * ti) / Rational(a - b));
+      return std::pair(t, Rational(Rational(ti - t) / abs(a)));
+    };
+    auto from = end(at(first), at(first - 1)), to = end(at(last), at(last + 1));
+    if (to < from) std::swap(from, to);
+    const bool corner = from.first == to.first;
+    Fin fin{from.first, to.first, from.second, to.second, &at(first).u};
+    if (lo != nullptr && fin.from <= *lo) {
+      fin.from = *lo;
+      fin.from_slope.reset();
+    }
+    if (hi != nullptr && fin.to >= *hi) {
+      fin.to = *hi;
+      fin.to_slope.reset();
+    }
+    if (fin.from > fin.to || (fin.from == fin.to && !corner)) continue;
+    if (corner && !(fin.from_slope && fin.to_slope)) continue;
+    fins.push_back(std::move(fin));
+  }
+}
+
 bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi) const {
   const std::span<const Hit> mine(hits.begin() + first_hit[contact],
                                   hits.begin() + first_hit[contact + 1]);
@@ -748,58 +1167,97 @@ bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi) 
   };
   std::vector<SectorAt> sectors;
   std::vector<int> at;  // position of each sector
-  bool edge_on = false;
   for (const Hit& h : mine) {
-    edge_on |= h.obstacle == Obstacle::Barrier;
     if (h.obstacle != Obstacle::Full && h.obstacle != Obstacle::Sector) continue;
     if (!inside(h.from)) continue;
     if (h.obstacle == Obstacle::Full) return true;
     const int instant =
         at.empty() ? 0
                    : sectors.back().instant + (compare(at.back(), h.from) != 0 ? 1 : 0);
-    sectors.push_back({instant, &corners[h.start].u, &corners[h.end].u});
+    sectors.push_back({instant, &corners[h.start], &corners[h.end]});
     at.push_back(h.from);
   }
   // A constant w is free, or else no w is at one instant.
   if (!covers(sectors)) return false;
+  const CornerTimes corner_time = [&](const Corner& c) { return corner_t(c); };
+  std::vector<const Ray*> rays;
   for (std::size_t first = 0, last; first < sectors.size(); first = last) {
     for (last = first; last < sectors.size(); ++last) {
       if (sectors[last].instant != sectors[first].instant) break;
     }
-    if (covers(std::span(sectors).subspan(first, last - first))) return true;
+    const auto now = std::span(sectors).subspan(first, last - first);
+    if (covers(now) && closed_on_rays(now, t(at[first]), corner_time)) return true;
+    // Rays inside of the union of the sectors do not matter.
+    const auto matters = [&](const Ray& r) {
+      const auto contains = [&](auto&& side) {
+        return std::any_of(now.begin(), now.end(),
+                           [&](const SectorAt& s) { return side(s, r); });
+      };
+      if (!contains(contains_after) || !contains(contains_before)) return true;
+      return !openings(1, r, t(at[first]), now, {}, corner_time).empty() ||
+             !openings(-1, r, t(at[first]), now, {}, corner_time).empty();
+    };
+    for (const SectorAt& s : now) {
+      for (const Corner* c : {s.start, s.end}) {
+        if (std::none_of(rays.begin(), rays.end(),
+                         [&](const Ray* r) { return same_direction(*r, c->u); }) &&
+            matters(c->u)) {
+          rays.push_back(&c->u);
+        }
+      }
+    }
   }
-  assert(edge_on && "a point contact has one instant");
 
+  std::vector<Fin> fins;
+  for (const Hit& h : mine) {
+    if (h.loop >= 0) add_fins(h, lo, hi, fins);
+  }
+  std::vector<std::vector<const Fin*>> directions;
+  for (const Fin& f : fins) {
+    const auto known = std::find_if(
+        directions.begin(), directions.end(),
+        [&](const auto& d) { return same_direction(*d.front()->ray, *f.ray); });
+    if (known == directions.end()) {
+      directions.push_back({&f});
+    } else {
+      known->push_back(&f);
+    }
+  }
   std::vector<Rational> instants;
   for (const int position : at) instants.push_back(t(position));
-  struct Stretch {
-    Rational from, to;
-    const Hit* hit;
-  };
-  std::vector<Stretch> stretches;
-  for (const Hit& h : mine) {
-    if (h.obstacle != Obstacle::Barrier) continue;
-    Rational from = t(h.from), to = t(h.to);
-    if (lo != nullptr && from < *lo) from = *lo;
-    if (hi != nullptr && to > *hi) to = *hi;
-    if (from >= to) continue;
-    instants.push_back(from);
-    instants.push_back(to);
-    stretches.push_back({std::move(from), std::move(to), &h});
+  for (const auto& along : directions) {
+    std::vector<Rational> ends;
+    for (const Fin* f : along) {
+      if (f->from == f->to) continue;
+      ends.push_back(f->from);
+      ends.push_back(f->to);
+    }
+    if (ends.empty()) continue;
+    rays.push_back(along.front()->ray);
+    std::sort(ends.begin(), ends.end());
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    // Where one fin goes on as another, without a gap between them, nothing happens.
+    for (const Rational& end : ends) {
+      bool before = false, after = false;
+      for (const Fin* f : along) {
+        before |= f->from < end && end <= f->to;
+        after |= f->from <= end && end < f->to;
+      }
+      if (before && after &&
+          openings(1, *along.front()->ray, end, {}, along, corner_time).empty()) {
+        continue;
+      }
+      instants.push_back(end);
+    }
   }
   std::sort(instants.begin(), instants.end());
   instants.erase(std::unique(instants.begin(), instants.end()), instants.end());
-  const auto number = [&](const Rational& x) {
-    return static_cast<int>(std::lower_bound(instants.begin(), instants.end(), x) -
-                            instants.begin());
-  };
-  for (std::size_t i = 0; i < sectors.size(); ++i) sectors[i].instant = number(t(at[i]));
-  std::vector<BarrierDuring> barriers;
-  for (const Stretch& s : stretches) {
-    barriers.push_back({number(s.from), number(s.to), &corners[s.hit->start].u,
-                        s.hit->plus, s.hit->minus});
+  for (std::size_t i = 0; i < sectors.size(); ++i) {
+    sectors[i].instant = static_cast<int>(
+        std::lower_bound(instants.begin(), instants.end(), t(at[i])) - instants.begin());
   }
-  return !MotionSearch(std::move(instants), sectors, barriers).possible();
+  return !MotionSearch(std::move(instants), sectors, directions, rays, corner_time)
+              .possible();
 }
 
 LineScan::LineScan(const Scene& scene, std::span<const int> faces, const ExactPoint& a,
