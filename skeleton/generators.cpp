@@ -218,6 +218,7 @@ Generators::Generators(const Scene& scene, int /*threads*/)
     object_starts_[p + 1] = static_cast<std::int32_t>(object_ids_.size());
   }
   find_convex_solids();
+  find_outlines();
   find_ridges();
   find_stars();
   find_inside();
@@ -257,6 +258,40 @@ void Generators::find_convex_solids() {
       }
     }
     convex_[o] = ok;
+  }
+}
+
+void Generators::find_outlines() {
+  constexpr std::size_t kMostFaces = 64;  // larger facets are seldom convex
+  const Scene& s = *scene_;
+  outlines_.resize(s.facets().size());
+  for (std::size_t i = 0; i < s.facets().size(); ++i) {
+    const Facet& facet = s.facets()[i];
+    if (!facet.planar || facet.faces.size() < 2 || facet.faces.size() > kMostFaces)
+      continue;
+    std::vector<std::array<std::int32_t, 2>> sides;
+    for (const int f : facet.faces) {
+      const auto c = s.face_points(f);
+      for (std::size_t k = 0; k < c.size(); ++k)
+        sides.push_back({c[k], c[(k + 1) % c.size()]});
+    }
+    std::sort(sides.begin(), sides.end());
+    std::vector<std::array<std::int32_t, 2>> outline;
+    for (const auto& side : sides) {
+      if (!std::binary_search(sides.begin(), sides.end(),
+                              std::array<std::int32_t, 2>{side[1], side[0]})) {
+        outline.push_back(side);
+      }
+    }
+    const InPlaneSide left_of(s, facet.faces[0]);
+    const bool convex =
+        std::all_of(outline.begin(), outline.end(), [&](const auto& side) {
+          return std::all_of(outline.begin(), outline.end(), [&](const auto& other) {
+            return left_of(s.point(side[0]), s.point(side[1]), s.point(other[0])) !=
+                   Sign::Negative;
+          });
+        });
+    if (convex) outlines_[i] = std::move(outline);
   }
 }
 

@@ -74,6 +74,13 @@ class Generators {
   /// Closed, bounded inside, and convex up to folds along edges declared flat.
   [[nodiscard]] bool convex_solid(int object) const { return convex_[object] != 0; }
 
+  /// The sides around a facet that is a convex polygon, in its faces' orientation; empty
+  /// for other facets, and for those of one face.
+  [[nodiscard]] std::span<const std::array<std::int32_t, 2>> facet_outline(
+      int facet) const {
+    return outlines_[facet];
+  }
+
   [[nodiscard]] const Bvh& face_tree() const { return face_tree_; }
   /// Over ridges(); leaves hold ridge numbers.
   [[nodiscard]] const Bvh& ridge_tree() const { return ridge_tree_; }
@@ -82,6 +89,7 @@ class Generators {
 
  private:
   void find_convex_solids();
+  void find_outlines();
   void find_ridges();
   void find_stars();
   void find_inside();
@@ -97,6 +105,7 @@ class Generators {
   std::vector<std::uint8_t> inside_;
   int inside_count_ = 0;
   std::vector<std::uint8_t> convex_;
+  std::vector<std::vector<std::array<std::int32_t, 2>>> outlines_;
   std::vector<std::int32_t> object_starts_, object_ids_;
 };
 

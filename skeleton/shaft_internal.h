@@ -171,7 +171,6 @@ class Shaft {
 
 /// Where a convex occluder hides everything from a point: inside all its planes.
 struct Shadow {
-  int occluder = -1;
   std::vector<BoundedPlane> planes;  ///< relative to the viewpoint, negative inside
 
   /// True proves that every segment from the viewpoint to a point of the box passes

@@ -127,9 +127,7 @@ VertexViewer::VertexViewer(const Generators& generators, const Selection& select
     : g_(generators),
       scene_(generators.scene()),
       selection_(selection),
-      facet_stamp_(scene_.facets().size(), 0),
-      shadow_index_(scene_.objects().size(), -1),
-      shadow_stamp_(scene_.objects().size(), 0) {}
+      facet_stamp_(scene_.facets().size(), 0) {}
 
 struct VertexViewer::Pair {
   int ridge;
@@ -158,7 +156,8 @@ void VertexViewer::prepare(int star) {
   point_ = star_->point;
   at_ = scene_.point(point_);
   ++stamp_;
-  for (const int f : star_->facets) facet_stamp_[f] = stamp_;
+  for (const int f : star_->faces) facet_stamp_[scene_.faces()[f].facet] = stamp_;
+  shadow_index_.clear();
   const auto objects = g_.objects_at(point_);
   own_objects_.assign(objects.begin(), objects.end());
   shadows_.clear();
@@ -172,18 +171,35 @@ void VertexViewer::prepare(int star) {
   }
 }
 
-// The shadow of a convex solid: behind its front faces, inside the cone of its outline.
-const Shadow* VertexViewer::shadow_of(int object) {
-  if (!g_.convex_solid(object)) return nullptr;
-  if (shadow_stamp_[object] == stamp_) {
-    const int i = shadow_index_[object];
-    return i < 0 ? nullptr : &shadows_[i];
-  }
-  shadow_stamp_[object] = stamp_;
-  shadow_index_[object] = -1;
-  if (contains(own_objects_, object)) return nullptr;
+// The shadow of a face's convex solid, else of its convex facet, else of the face alone.
+int VertexViewer::shadow_of(int face) {
+  const Face& f = scene_.faces()[face];
+  const bool solid = g_.convex_solid(f.object);
+  const auto outline =
+      solid ? std::span<const std::array<std::int32_t, 2>>() : g_.facet_outline(f.facet);
+  const auto objects = static_cast<std::int64_t>(scene_.objects().size());
+  const auto facets = static_cast<std::int64_t>(scene_.facets().size());
+  const std::int64_t key = solid              ? f.object
+                           : !outline.empty() ? objects + f.facet
+                                              : objects + facets + face;
+  const auto [at, fresh] = shadow_index_.try_emplace(key, -1);
+  if (!fresh) return at->second;
+  if (solid && contains(own_objects_, f.object)) return -1;
+  if (!solid && facet_stamp_[f.facet] == stamp_) return -1;
   Shadow shadow;
-  shadow.occluder = object;
+  if (solid) {
+    add_solid_planes(f.object, shadow);
+  } else {
+    add_face_planes(face, outline, shadow);
+  }
+  if (shadow.planes.empty()) return -1;
+  at->second = static_cast<int>(shadows_.size());
+  shadows_.push_back(std::move(shadow));
+  return at->second;
+}
+
+// Behind a convex solid's front faces, inside the cone of its outline.
+void VertexViewer::add_solid_planes(int object, Shadow& shadow) const {
   std::vector<std::array<std::int32_t, 3>> sides;  // smaller id, larger id, direction
   for (const int f : scene_.objects()[object].faces) {
     if (g_.face_plane(f)(at_) != Sign::Positive) continue;
@@ -196,7 +212,6 @@ const Shadow* VertexViewer::shadow_of(int object) {
       sides.push_back({std::min(from, to), std::max(from, to), from < to});
     }
   }
-  if (shadow.planes.empty()) return nullptr;
   std::sort(sides.begin(), sides.end());
   for (std::size_t i = 0; i < sides.size(); ++i) {
     if (i + 1 < sides.size() && sides[i][0] == sides[i + 1][0] &&
@@ -210,9 +225,29 @@ const Shadow* VertexViewer::shadow_of(int object) {
     // The face lies to the left of its side pq: negative for the plane (viewpoint, p, q).
     shadow.planes.push_back(plane_from(at_, p, q));
   }
-  shadow_index_[object] = static_cast<int>(shadows_.size());
-  shadows_.push_back(std::move(shadow));
-  return &shadows_.back();
+}
+
+// Beyond a convex polygon's plane, inside the cone of its sides.
+void VertexViewer::add_face_planes(int face,
+                                   std::span<const std::array<std::int32_t, 2>> outline,
+                                   Shadow& shadow) const {
+  const Sign here = g_.face_plane(face)(at_);
+  if (here == Sign::Zero) return;
+  const bool front = here == Sign::Positive;
+  const auto [a, b, c] = face_plane_through(scene_, face);
+  shadow.planes.push_back(front ? plane_seen_from(at_, a, b, c)
+                                : plane_seen_from(at_, a, c, b));
+  const auto add = [&](int from, int to) {
+    const Point& p = scene_.point(front ? from : to);
+    const Point& q = scene_.point(front ? to : from);
+    shadow.planes.push_back(plane_from(at_, p, q));
+  };
+  for (const auto& side : outline) add(side[0], side[1]);
+  if (!outline.empty()) return;
+  const auto corners = scene_.face_points(face);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    add(corners[k], corners[(k + 1) % corners.size()]);
+  }
 }
 
 bool VertexViewer::hidden(const std::array<double, 3>& centre,
@@ -300,17 +335,13 @@ bool VertexViewer::hidden_behind_proposal(const Point& target,
                                           const std::array<double, 3>& half) {
   const int face = first_face_hit(target);
   if (face < 0) return false;
-  const int object = scene_.faces()[face].object;
-  const bool known = shadow_stamp_[object] == stamp_;
-  const Shadow* shadow = shadow_of(object);
-  if (shadow == nullptr) return false;
-  const auto index = shadow_index_[object];
-  if (known && std::find(recent_.begin(), recent_.end(), index) != recent_.end())
-    return false;
+  const int index = shadow_of(face);
+  if (index < 0) return false;
+  if (std::find(recent_.begin(), recent_.end(), index) != recent_.end()) return false;
   constexpr std::size_t kRecent = 12;
   if (recent_.size() >= kRecent) recent_.pop_back();
   recent_.insert(recent_.begin(), index);
-  return shadow->hides(centre, half);
+  return shadows_[index].hides(centre, half);
 }
 
 VertexView VertexViewer::view(int star) {
@@ -406,7 +437,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     pair.edge_facets.push_back(scene_.faces()[side.face].facet);
   }
   pair.mild = a == Sign::Zero || b == Sign::Zero;
-  pair.degenerate = r.touched || star_->touched;
+  pair.degenerate = r.touched || star_->in_plane_only;
   if (star_->convex) add_unsupported_convex(pair);
   if (pair.closed.covers_all()) return;
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "skeleton/edge_cuts_internal.h"
@@ -61,7 +62,10 @@ class VertexViewer {
                             const std::array<double, 3>& half);
   bool hidden_behind_proposal(const Point& target, const std::array<double, 3>& centre,
                               const std::array<double, 3>& half);
-  [[nodiscard]] const Shadow* shadow_of(int object);
+  int shadow_of(int face);  // position in shadows_, -1 if it casts none
+  void add_solid_planes(int object, Shadow& shadow) const;
+  void add_face_planes(int face, std::span<const std::array<std::int32_t, 2>> outline,
+                       Shadow& shadow) const;
   [[nodiscard]] int first_face_hit(const Point& target) const;
   void visit_ridges(VertexView& out);
   void view_ridge(int ridge, VertexView& out);
@@ -92,9 +96,8 @@ class VertexViewer {
   std::vector<std::uint32_t> facet_stamp_;  // == stamp_: facet at the viewpoint
   std::uint32_t stamp_ = 0;
   std::vector<std::int32_t> own_objects_;
-  std::vector<Shadow> shadows_;             // of this viewpoint
-  std::vector<std::int32_t> shadow_index_;  // by object; valid where shadow_stamp_ is
-  std::vector<std::uint32_t> shadow_stamp_;
+  std::vector<Shadow> shadows_;                         // of this viewpoint
+  std::unordered_map<std::int64_t, int> shadow_index_;  // by solid, facet or face
   std::vector<std::int32_t> recent_;  // positions in shadows_, best first
   std::vector<BoundedPlane> star_planes_;
 };
