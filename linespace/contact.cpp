@@ -70,7 +70,14 @@ struct Ray {
     ry = CGAL::to_double(y);
   }
   [[nodiscard]] bool zero() const { return sign_of(x) == 0 && sign_of(y) == 0; }
-  Ray operator-() const { return {-x, -y}; }
+  Ray operator-() const {
+    Ray r;
+    r.x = -x;
+    r.y = -y;
+    r.rx = -rx;
+    r.ry = -ry;
+    return r;
+  }
 };
 
 // Sign of p * q + r * s.  The rounded factors are within 2 ulp each, so the rounded sum
@@ -117,7 +124,9 @@ struct Hit {
   int index = -1;
   int from, to;
   int start = -1, end = -1;  // Sector: counter-clockwise from start, at most a half turn
-  int loop = -1;             // in L's plane: where the ids of its corners begin
+  // In a plane with L: where the ids of its corners begin, and which of them is at
+  // `from`, or begins the side that is.
+  int loop = -1, from_at = -1;
 };
 
 // A position x = num / den along L, den > 0.
@@ -134,25 +143,27 @@ struct SectorAt {
   const Corner *start, *end;  // counter-clockwise
 };
 
-// One side of a face in a plane with L: along `ray` it is up from `from` to `to`.  At a
-// small distance r from L its ends are at from + r * from_slope and to + r * to_slope;
-// none where the judged part of L ends.  from = to where the face meets L in a corner.
+// One side of a face in a plane with L: along `ray` it is up from `from` to `to`.  Its
+// ends lie on the lines from there to two corners; none where the judged part of L ends.
+// from = to where the face meets L in a corner.
 struct Fin {
   Rational from, to;
-  std::optional<Rational> from_slope, to_slope;
+  const Corner *from_side, *to_side;
   const Ray* ray;
 };
 
+bool contains_inside(const SectorAt& s, const Ray& r) {
+  return cross(s.start->u, r) > 0 && cross(r, s.end->u) > 0;
+}
+
 // Directions just counter-clockwise of r are in the sector.
 bool contains_after(const SectorAt& s, const Ray& r) {
-  if (same_direction(s.start->u, r)) return true;
-  return cross(s.start->u, r) > 0 && cross(r, s.end->u) > 0;
+  return same_direction(s.start->u, r) || contains_inside(s, r);
 }
 
 // Directions just clockwise of r are in the sector.
 bool contains_before(const SectorAt& s, const Ray& r) {
-  if (same_direction(s.end->u, r)) return true;
-  return cross(s.start->u, r) > 0 && cross(r, s.end->u) > 0;
+  return same_direction(s.end->u, r) || contains_inside(s, r);
 }
 
 // The union of the closed sectors is the whole plane: no sector's end is followed by a
@@ -171,9 +182,13 @@ const Ring& coordinate(const Ray& r) { return sign_of(r.x) != 0 ? r.x : r.y; }
 
 Rational measure(const Ray& r) { return abs(rational(gmpq(coordinate(r)))); }
 
-// Where in time a motion may cross a ray, in second order: an open interval of slopes.
+// Where in time a motion may cross a ray, in second order: open intervals of slopes.
 struct Opening {
   std::optional<Rational> low, high;
+};
+struct Openings {
+  std::vector<Opening> intervals;
+  bool bounded = false;  // not all slopes
 };
 
 using CornerTimes = std::function<Rational(const Corner&)>;
@@ -182,66 +197,98 @@ using CornerTimes = std::function<Rational(const Corner&)>;
 // order, k being ours to choose.  A sector's side on that ray runs from (t, L) to
 // (t + r s, distance r), s being its slope: a sector on the side that w leaves must be
 // met after the crossing, k < s, one on the side that w enters before it.  A fin along
-// the ray must not be up.  All k that do, counter-clockwise for sense > 0.
-std::vector<Opening> openings(int sense, const Ray& ray, const Rational& t,
-                              std::span<const SectorAt> sectors,
-                              std::span<const Fin* const> fins,
-                              const CornerTimes& corner_time) {
-  std::vector<const Corner*> leaving, entering;
+// the ray must not be up.  All k that do, counter-clockwise for sense > 0; unless `exact`
+// is asked for, a single interval may be replaced by another one.
+Openings openings(int sense, const Ray& ray, const Rational& t,
+                  std::span<const SectorAt> sectors, std::span<const Fin* const> fins,
+                  const CornerTimes& corner_time, bool exact) {
+  // k must be less than the slopes to these corners, and greater than to those.
+  std::vector<const Corner*> less, greater;
   for (const SectorAt& s : sectors) {
-    if (cross(s.start->u, ray) > 0 && cross(ray, s.end->u) > 0) return {};
-    if (same_direction(s.end->u, ray)) leaving.push_back(s.end);
-    if (same_direction(s.start->u, ray)) entering.push_back(s.start);
+    if (contains_inside(s, ray)) return {};
+    if (same_direction(s.end->u, ray)) less.push_back(s.end);
+    if (same_direction(s.start->u, ray)) greater.push_back(s.start);
   }
-  for (const Corner* c : leaving) {
-    if (std::find(entering.begin(), entering.end(), c) != entering.end()) return {};
-  }
-  if (sense < 0) std::swap(leaving, entering);
-  Opening all;
-  const auto before = [&](const Rational& slope) {
-    if (!all.high || slope < *all.high) all.high = slope;
-  };
-  const auto after = [&](const Rational& slope) {
-    if (!all.low || slope > *all.low) all.low = slope;
-  };
-  const auto slope = [&](const Corner* c) {
-    return Rational(Rational(corner_time(*c) - t) / measure(c->u));
-  };
-  std::vector<std::pair<Rational, Rational>> wedges;
+  if (sense < 0) std::swap(less, greater);
+  std::vector<const Fin*> wedges;
   for (const Fin* f : fins) {
     if (t < f->from || f->to < t) continue;
     if (f->from == f->to) {
-      wedges.emplace_back(*f->from_slope, *f->to_slope);
+      wedges.push_back(f);
     } else if (f->from == t) {
-      if (f->from_slope) before(*f->from_slope);
+      if (f->from_side != nullptr) less.push_back(f->from_side);
     } else if (f->to == t) {
-      if (f->to_slope) after(*f->to_slope);
+      if (f->to_side != nullptr) greater.push_back(f->to_side);
     } else {
       return {};
     }
   }
-  for (const Corner* c : leaving) before(slope(c));
-  for (const Corner* c : entering) after(slope(c));
+  for (const Corner* c : less) {
+    if (std::find(greater.begin(), greater.end(), c) != greater.end()) return {};
+  }
+  Openings out;
+  out.bounded = !less.empty() || !greater.empty() || !wedges.empty();
+  if (!exact && (less.empty() || greater.empty())) {
+    out.intervals.emplace_back();
+    return out;
+  }
+  const auto slope = [&](const Corner* c) {
+    return Rational(Rational(corner_time(*c) - t) / measure(c->u));
+  };
+  Opening all;
+  for (const Corner* c : less) {
+    const Rational s = slope(c);
+    if (!all.high || s < *all.high) all.high = s;
+  }
+  for (const Corner* c : greater) {
+    const Rational s = slope(c);
+    if (!all.low || s > *all.low) all.low = s;
+  }
   if (all.low && all.high && *all.low >= *all.high) return {};
-  std::sort(wedges.begin(), wedges.end());
-  std::vector<Opening> out;
-  for (const auto& [low, high] : wedges) {
+  std::vector<std::pair<Rational, Rational>> closed;
+  for (const Fin* f : wedges) {
+    const Rational p = slope(f->from_side), q = slope(f->to_side);
+    closed.emplace_back(std::min(p, q), std::max(p, q));
+  }
+  std::sort(closed.begin(), closed.end());
+  for (const auto& [low, high] : closed) {
     if (all.high && low >= *all.high) break;
-    if (!all.low || low > *all.low) out.push_back({all.low, low});
+    if (!all.low || low > *all.low) out.intervals.push_back({all.low, low});
     if (!all.low || high > *all.low) all.low = high;
   }
-  if (!all.high || !all.low || *all.low < *all.high) out.push_back(std::move(all));
+  if (!all.high || !all.low || *all.low < *all.high) {
+    out.intervals.push_back(std::move(all));
+  }
   return out;
 }
 
-// The sectors of one instant close each of their sides to second order too.
-bool closed_on_rays(std::span<const SectorAt> sectors, const Rational& t,
-                    const CornerTimes& corner_time) {
+// Each sector's end is inside another sector or the beginning of another one, along the
+// same side: closed to first and second order.  May be false of closed ones that share
+// no corners.
+bool sealed(std::span<const SectorAt> sectors) {
+  return std::all_of(sectors.begin(), sectors.end(), [&](const SectorAt& s) {
+    return std::any_of(sectors.begin(), sectors.end(), [&](const SectorAt& other) {
+      return other.start == s.end || contains_inside(other, s.end->u);
+    });
+  });
+}
+
+// Some motion in either sense crosses the ray just at the instant of these sectors;
+// `order` compares the slopes of two corners.
+template <class Order>
+bool crossable(const Ray& ray, std::span<const SectorAt> sectors, Order&& order) {
+  std::vector<const Corner*> right, left;
   for (const SectorAt& s : sectors) {
-    for (const Corner* c : {s.start, s.end}) {
-      for (const int sense : {1, -1}) {
-        if (!openings(sense, c->u, t, sectors, {}, corner_time).empty()) return false;
-      }
+    if (contains_inside(s, ray)) return false;
+    if (same_direction(s.end->u, ray)) right.push_back(s.end);
+    if (same_direction(s.start->u, ray)) left.push_back(s.start);
+  }
+  int sign = 0;  // of the slopes on the right less those on the left
+  for (const Corner* r : right) {
+    for (const Corner* l : left) {
+      const int here = r == l ? 0 : order(*r, *l);
+      if (here == 0 || here == -sign) return false;
+      sign = here;
     }
   }
   return true;
@@ -433,11 +480,6 @@ class MotionSearch {
                std::span<const Ray* const> rays, const CornerTimes& corner_time)
       : instants_(std::move(instants)), corner_time_(corner_time) {
     cut_into_cells(rays);
-    for (const Rational& t : instants_) {
-      const Rational after(t - instants_.front());
-      elapsed_.push_back({ring(mpq_numref(after.backend().data())),
-                          ring(mpq_denref(after.backend().data()))});
-    }
     const std::size_t count = instants_.size();
     sectors_at_.resize(count);
     for (std::size_t first = 0, last; first < sectors.size(); first = last) {
@@ -511,22 +553,20 @@ class MotionSearch {
   // on it can be moved off, unless it has no freedom left, being on four.
   bool open_rays(int sense) {
     const std::size_t count = instants_.size();
-    openings_.assign(count, std::vector<std::vector<Opening>>(rays_.size()));
     bool adds = false;
     std::size_t bounded = 0;
     for (std::size_t i = 0; i < count; ++i) {
       bool bound_here = false;
       for (int r = 0; r < ray_count(); ++r) {
-        std::vector<Opening>& open = openings_[i][r];
-        open = openings(sense, rays_[r], instants_[i], sectors_at_[i], fins_[r],
-                        corner_time_);
-        closed_[i][2 * r] = open.empty();
-        if (open.empty()) continue;
+        const Openings open = openings(sense, rays_[r], instants_[i], sectors_at_[i],
+                                       fins_[r], corner_time_, false);
+        closed_[i][2 * r] = open.intervals.empty();
+        if (open.intervals.empty()) continue;
         const int left = wrapped(2 * r - sense), entered = wrapped(2 * r + sense);
         const bool earlier = !closed_[i][entered] && (i == 0 || !up_[i - 1][r]);
         const bool later = !closed_[i][left] && (i + 1 == count || !up_[i][r]);
         adds |= !earlier && !later;
-        bound_here |= open.front().low || open.front().high;
+        bound_here |= open.bounded;
       }
       bounded += bound_here;
     }
@@ -629,9 +669,14 @@ class MotionSearch {
   // Some motion is at these places at the first instants.  For each line through the
   // origin the side of w is the sign of an affine function of time, so that the instants
   // next to its change say all.
-  [[nodiscard]] bool is_a_motion() const {
+  [[nodiscard]] bool is_a_motion() {
     const std::size_t count = places_.size();
     if (count <= 2) return true;
+    for (std::size_t i = elapsed_.size(); i < instants_.size(); ++i) {
+      const Rational after(instants_[i] - instants_.front());
+      elapsed_.emplace_back(ring(mpq_numref(after.backend().data())),
+                            ring(mpq_denref(after.backend().data())));
+    }
     std::vector<Row> rows, equalities;
     const auto require = [&](int ray, std::size_t i) {
       const int s = side(ray, places_[i]);
@@ -696,7 +741,9 @@ class MotionSearch {
       row.round(5);
       rows.push_back(std::move(row));
     };
-    return std::any_of(openings_[i][ray].begin(), openings_[i][ray].end(),
+    const Openings open = openings(sense, rays_[ray], instants_[i], sectors_at_[i],
+                                   fins_[ray], corner_time_, true);
+    return std::any_of(open.intervals.begin(), open.intervals.end(),
                        [&](const Opening& o) {
                          const std::size_t before = rows.size();
                          if (o.low) bound(*o.low, 1);
@@ -712,12 +759,11 @@ class MotionSearch {
   std::vector<std::pair<Ring, Ring>> elapsed_;  // since the first, num / den
   std::vector<Ray> rays_;
   std::vector<std::span<const SectorAt>> sectors_at_;
-  std::vector<std::vector<const Fin*>> fins_;                // [ray]
-  std::vector<std::vector<char>> closed_;                    // [instant][place]
-  std::vector<std::vector<char>> up_;                        // [until the next][ray]
-  std::vector<std::vector<std::vector<Opening>>> openings_;  // [instant][ray]
-  std::vector<int> places_;                                  // at the first instants
-  std::vector<char> passable_;                               // see passable()
+  std::vector<std::vector<const Fin*>> fins_;  // [ray]
+  std::vector<std::vector<char>> closed_;      // [instant][place]
+  std::vector<std::vector<char>> up_;          // [until the next][ray]
+  std::vector<int> places_;                    // at the first instants
+  std::vector<char> passable_;                 // see passable()
 };
 
 // The rounded line for the first stage: |a - line a| <= a_error, direction scaled to
@@ -773,6 +819,7 @@ struct LineScan::Impl {
   [[nodiscard]] bool is_diagonal(int face, int side) const;
   void group();
   [[nodiscard]] Rational corner_t(const Corner& c) const;
+  [[nodiscard]] int compare_slopes(const Corner& p, const Corner& q, int position) const;
   void add_fins(const Hit& hit, const Rational* lo, const Rational* hi,
                 std::vector<Fin>& fins) const;
   bool judge(int contact, const Rational* lo, const Rational* hi) const;
@@ -1063,8 +1110,11 @@ void LineScan::Impl::meet_in_plane(int face, std::span<const int> ids) {
           .from = -1,
           .to = -1};
   const auto side = [&](int i) { return dot(corners[ids[i]].u, corners[reference].u); };
-  const auto include = [&](int position) {
-    if (hit.from < 0 || compare(position, hit.from) < 0) hit.from = position;
+  const auto include = [&](int position, int i) {
+    if (hit.from < 0 || compare(position, hit.from) < 0) {
+      hit.from = position;
+      hit.from_at = i;
+    }
     if (hit.to < 0 || compare(position, hit.to) > 0) hit.to = position;
   };
   for (int i = 0; i < n; ++i) {
@@ -1072,9 +1122,9 @@ void LineScan::Impl::meet_in_plane(int face, std::span<const int> ids) {
     const int s = side(i);
     if (s == 0) {
       hit.index = i;
-      include(corner_position(ids[i]));
+      include(corner_position(ids[i]), i);
     } else if (s * side(j) < 0) {
-      include(edge_position(ids[i], ids[j]));
+      include(edge_position(ids[i], ids[j]), i);
     }
   }
   if (hit.from < 0) return;
@@ -1116,6 +1166,19 @@ Rational LineScan::Impl::corner_t(const Corner& c) const {
   return rational(gmpq(c.v) / gmpq(direction[k]) * scale);
 }
 
+// The slopes of two sides from a position on L to corners that are in one direction seen
+// along L: ((x_p - x) / |u_p|) against the same of q.
+int LineScan::Impl::compare_slopes(const Corner& p, const Corner& q, int position) const {
+  const Position& at = positions[position];
+  const auto ahead = [&](const Corner& c) {
+    return Ring(Ring(c.v * at.den) - Ring(at.num * direction[k]));
+  };
+  // Both coordinates have one sign.
+  const int sign =
+      sign_of(Ring(ahead(p) * coordinate(q.u)) - Ring(ahead(q) * coordinate(p.u)));
+  return sign * sign_of(coordinate(p.u)) * sign_of(direction[k]);
+}
+
 // The sides of an edge-on face, cut to the part from lo to hi.
 void LineScan::Impl::add_fins(const Hit& hit, const Rational* lo, const Rational* hi,
                               std::vector<Fin>& fins) const {
@@ -1132,29 +1195,25 @@ void LineScan::Impl::add_fins(const Hit& hit, const Rational* lo, const Rational
     if (first == n) continue;
     int last = first;
     while (on_this_side(last + 1)) ++last;
-    // Where the side of the face from one corner to the other meets L, and its slope.
-    const auto end = [&](const Corner& inner, const Corner& outer) {
-      const Rational a = rational(gmpq(coordinate(inner.u)));
-      const Rational b =
-          outer.u.zero() ? Rational(0) : rational(gmpq(coordinate(outer.u)));
-      const Rational ti = corner_t(inner), to = corner_t(outer);
-      const Rational t(Rational(a * to - b * ti) / Rational(a - b));
-      return std::pair(t, Rational(Rational(ti - t) / abs(a)));
-    };
-    auto from = end(at(first), at(first - 1)), to = end(at(last), at(last + 1));
-    if (to < from) std::swap(from, to);
-    const bool corner = from.first == to.first;
-    Fin fin{from.first, to.first, from.second, to.second, &at(first).u};
-    if (lo != nullptr && fin.from <= *lo) {
-      fin.from = *lo;
-      fin.from_slope.reset();
+    // The side before `first` meets L in its own corner or inside, both numbered so.
+    const bool forwards = hit.from_at == (first + n - 1) % n;
+    const Corner &entry = at(first), &exit = at(last);
+    Fin fin{t(hit.from), t(hit.to), forwards ? &entry : &exit, forwards ? &exit : &entry,
+            &entry.u};
+    if (hit.obstacle == Obstacle::None) {
+      if ((lo != nullptr && fin.from <= *lo) || (hi != nullptr && fin.to >= *hi))
+        continue;
+    } else {
+      if (lo != nullptr && fin.from <= *lo) {
+        fin.from = *lo;
+        fin.from_side = nullptr;
+      }
+      if (hi != nullptr && fin.to >= *hi) {
+        fin.to = *hi;
+        fin.to_side = nullptr;
+      }
+      if (fin.from >= fin.to) continue;
     }
-    if (hi != nullptr && fin.to >= *hi) {
-      fin.to = *hi;
-      fin.to_slope.reset();
-    }
-    if (fin.from > fin.to || (fin.from == fin.to && !corner)) continue;
-    if (corner && !(fin.from_slope && fin.to_slope)) continue;
     fins.push_back(std::move(fin));
   }
 }
@@ -1186,16 +1245,23 @@ bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi) 
       if (sectors[last].instant != sectors[first].instant) break;
     }
     const auto now = std::span(sectors).subspan(first, last - first);
-    if (covers(now) && closed_on_rays(now, t(at[first]), corner_time)) return true;
+    if (sealed(now)) return true;
+    const auto order = [&](const Corner& p, const Corner& q) {
+      return compare_slopes(p, q, at[first]);
+    };
+    if (covers(now) && std::none_of(now.begin(), now.end(), [&](const SectorAt& s) {
+          return crossable(s.end->u, now, order);
+        })) {
+      return true;
+    }
     // Rays inside of the union of the sectors do not matter.
     const auto matters = [&](const Ray& r) {
       const auto contains = [&](auto&& side) {
         return std::any_of(now.begin(), now.end(),
                            [&](const SectorAt& s) { return side(s, r); });
       };
-      if (!contains(contains_after) || !contains(contains_before)) return true;
-      return !openings(1, r, t(at[first]), now, {}, corner_time).empty() ||
-             !openings(-1, r, t(at[first]), now, {}, corner_time).empty();
+      return !contains(contains_after) || !contains(contains_before) ||
+             crossable(r, now, order);
     };
     for (const SectorAt& s : now) {
       for (const Corner* c : {s.start, s.end}) {
@@ -1244,7 +1310,8 @@ bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi) 
         after |= f->from <= end && end < f->to;
       }
       if (before && after &&
-          openings(1, *along.front()->ray, end, {}, along, corner_time).empty()) {
+          openings(1, *along.front()->ray, end, {}, along, corner_time, false)
+              .intervals.empty()) {
         continue;
       }
       instants.push_back(end);
