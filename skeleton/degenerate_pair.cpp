@@ -18,41 +18,6 @@ Point rounded(const ExactPoint& p) {
           p[2].convert_to<double>()};
 }
 
-// Faces whose boxes, grown by a little, come near the line through a and b: everything
-// the line can touch.  The growth covers the rounding of b and of the slab test.
-std::vector<int> faces_near_line(const Generators& g, const Point& a, const Point& b) {
-  std::vector<int> found;
-  const auto& bounds = g.scene().bounds();
-  double size = 0;
-  for (int i = 0; i < 3; ++i) {
-    size = std::max({size, std::abs(bounds[0][i]), std::abs(bounds[1][i])});
-  }
-  const Point d = b - a;
-  const double grow =
-      1024 * std::numeric_limits<double>::epsilon() * size * (1 + size / d.norm());
-  g.face_tree().traverse(
-      [&](const Box& box) {
-        double t0 = -std::numeric_limits<double>::infinity();
-        double t1 = std::numeric_limits<double>::infinity();
-        for (int i = 0; i < 3; ++i) {
-          const double low = box.min[i] - grow - a[i];
-          const double high = box.max[i] + grow - a[i];
-          if (std::abs(d[i]) * size <= grow * d.norm()) {
-            if (std::abs(d[i]) == 0 && (low > 0 || high < 0)) return false;
-            continue;  // nearly parallel to the slab: no decision
-          }
-          const double p = low / d[i];
-          const double q = high / d[i];
-          t0 = std::max(t0, std::min(p, q));
-          t1 = std::min(t1, std::max(p, q));
-        }
-        return t0 <= t1 + 1e-9 * (std::abs(t0) + std::abs(t1));
-      },
-      [&](std::uint32_t f) { found.push_back(static_cast<int>(f)); });
-  std::sort(found.begin(), found.end());
-  return found;
-}
-
 struct Contacts {
   std::vector<std::vector<Generator>> groups;  ///< generators contact by contact
   bool free = true;
@@ -231,7 +196,41 @@ std::optional<ExactPoint> crossing_in_plane(const Scene& scene,
   return along(from, to, x / (x - y));
 }
 
-// All positions where the line's contacts can change, between the edge's ends.
+}  // namespace
+
+std::vector<int> faces_near_line(const Generators& g, const Point& a, const Point& b) {
+  std::vector<int> found;
+  const auto& bounds = g.scene().bounds();
+  double size = 0;
+  for (int i = 0; i < 3; ++i) {
+    size = std::max({size, std::abs(bounds[0][i]), std::abs(bounds[1][i])});
+  }
+  const Point d = b - a;
+  const double grow =
+      1024 * std::numeric_limits<double>::epsilon() * size * (1 + size / d.norm());
+  g.face_tree().traverse(
+      [&](const Box& box) {
+        double t0 = -std::numeric_limits<double>::infinity();
+        double t1 = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < 3; ++i) {
+          const double low = box.min[i] - grow - a[i];
+          const double high = box.max[i] + grow - a[i];
+          if (std::abs(d[i]) * size <= grow * d.norm()) {
+            if (std::abs(d[i]) == 0 && (low > 0 || high < 0)) return false;
+            continue;  // nearly parallel to the slab: no decision
+          }
+          const double p = low / d[i];
+          const double q = high / d[i];
+          t0 = std::max(t0, std::min(p, q));
+          t1 = std::min(t1, std::max(p, q));
+        }
+        return t0 <= t1 + 1e-9 * (std::abs(t0) + std::abs(t1));
+      },
+      [&](std::uint32_t f) { found.push_back(static_cast<int>(f)); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
 std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Point& e0,
                                const Point& e1, const PlaneSide& plane,
                                std::span<const int> faces,
@@ -319,8 +318,6 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
              cuts.end());
   return cuts;
 }
-
-}  // namespace
 
 std::uint32_t contact_node(const Generators& g, const Star& star, const Ridge& ridge,
                            std::span<const std::int32_t> meeting, const Cut& cut,

@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <deque>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,21 @@
 #include "skeleton/vertex_view_internal.h"
 
 namespace sightline::internal {
+
+/// Face ids, ascending, of all faces that meet the whole line through a and b, and some
+/// that do not; b may be rounded.
+[[nodiscard]] std::vector<int> faces_near_line(const Generators& generators,
+                                               const Point& a, const Point& b);
+
+/// All positions strictly inside the edge e0 e1 where the contacts of its lines through
+/// the star's point with these faces can change, in order, without repeats.  `plane` is
+/// that of the point and the edge; positions that no three points span go to `positions`,
+/// which the cuts then point into.
+[[nodiscard]] std::vector<Cut> critical_cuts(const Generators& generators,
+                                             const Star& star, const Point& e0,
+                                             const Point& e1, const PlaneSide& plane,
+                                             std::span<const int> faces,
+                                             std::deque<Rational>& positions);
 
 /// Adds the arcs of one vertex and one ridge.  `plane` is theirs, `closed` holds parts
 /// known to be hidden or unsupported, `faces` all faces that meet the triangle between.

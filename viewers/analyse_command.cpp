@@ -103,13 +103,13 @@ Highlights find_highlights(const Scene& scene, const Skeleton& skeleton) {
   return found;
 }
 
-std::vector<RuledStrip> strips_of(const Scene& scene, const OcclusionIndex& index,
+std::vector<RuledStrip> strips_of(const Scene& scene, const SkeletonLines& lines,
                                   const Skeleton& skeleton,
                                   const std::vector<int>& arcs) {
   std::vector<RuledStrip> strips;
   for (const int arc : arcs) {
     if (strips.size() == kDrawnStrips) break;
-    strips.push_back(ruled_strip(scene, index, skeleton, arc, 17));
+    strips.push_back(ruled_strip(scene, lines, skeleton, arc, 17));
   }
   return strips;
 }
@@ -156,7 +156,7 @@ std::string pair_picture(const SceneView& view, const Canvas& canvas, const Scen
   return encode_png(canvas.picture(marked.drawing));
 }
 
-std::vector<PagePicture> draw_pictures(const Scene& scene, const OcclusionIndex& index,
+std::vector<PagePicture> draw_pictures(const Scene& scene, const SkeletonLines& lines,
                                        const Skeleton& skeleton,
                                        const Highlights& highlights,
                                        const std::optional<std::array<Point, 2>>& region,
@@ -171,7 +171,7 @@ std::vector<PagePicture> draw_pictures(const Scene& scene, const OcclusionIndex&
 
   if (!highlights.vertex.empty()) {
     const std::vector<RuledStrip> strips =
-        strips_of(scene, index, skeleton, highlights.vertex);
+        strips_of(scene, lines, skeleton, highlights.vertex);
     PagePicture picture = strips_picture(view, canvas, scene, skeleton, strips);
     picture.file = "vertex.png";
     picture.title = "All events of one vertex";
@@ -187,7 +187,7 @@ std::vector<PagePicture> draw_pictures(const Scene& scene, const OcclusionIndex&
   }
   if (!highlights.edge.empty()) {
     const std::vector<RuledStrip> strips =
-        strips_of(scene, index, skeleton, highlights.edge);
+        strips_of(scene, lines, skeleton, highlights.edge);
     PagePicture picture = strips_picture(view, canvas, scene, skeleton, strips);
     picture.file = "edge.png";
     picture.title = "All events of one edge";
@@ -298,10 +298,10 @@ ExitStatus run(const AnalyseOptions& options) {
 
   // 3. Files.
   make_folder(folder);
-  const OcclusionIndex index(scene);
+  const SkeletonLines lines(scene);
   const Highlights highlights = find_highlights(scene, skeleton);
   const std::vector<RuledStrip> strips =
-      strips_of(scene, index, skeleton, highlights.vertex);
+      strips_of(scene, lines, skeleton, highlights.vertex);
   std::vector<std::string> files;
   const fs::path vtk = options.vtk.empty() ? folder / "vtk" : fs::path(options.vtk);
   for (const std::string& name : write_vtk(vtk, scene, {&skeleton, &strips})) {
@@ -309,7 +309,7 @@ ExitStatus run(const AnalyseOptions& options) {
   }
   log.done("VTK files");
   std::vector<PagePicture> pictures =
-      draw_pictures(scene, index, skeleton, highlights, request.region,
+      draw_pictures(scene, lines, skeleton, highlights, request.region,
                     options.up.empty() ? -1 : options.up[0] - 'x');
   for (const PagePicture& picture : pictures) {
     write_whole(folder / picture.file, picture.png);

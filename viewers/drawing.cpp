@@ -280,24 +280,22 @@ void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
   }
 }
 
-RuledStrip ruled_strip(const Scene& scene, const OcclusionIndex& index,
+RuledStrip ruled_strip(const Scene& scene, const SkeletonLines& lines,
                        const Skeleton& skeleton, int arc, int count) {
   const SkeletonArc& a = skeleton.arcs[arc];
   struct Rung {
     double t;  // 0 at the arc's one end, 1 at the other
     FarEnds ends;
   };
-  const auto rung_at = [&](double t) -> std::optional<Rung> {
+  const auto rung_at = [&](double t) {
     const double s = a.range[0] + t * (a.range[1] - a.range[0]);
-    if (auto ends = far_ends(scene, index, a, s)) return Rung{t, std::move(*ends)};
-    return std::nullopt;
+    return Rung{t, far_ends(scene, lines, a, s)};
   };
   // The two rungs next to the change between x and y, to a picture's accuracy.
   const auto add_change = [&](RuledStrip& strip, Rung x, Rung y) {
     for (int step = 0; step < 12; ++step) {
-      std::optional<Rung> middle = rung_at(0.5 * (x.t + y.t));
-      if (!middle) break;
-      (middle->ends.faces == x.ends.faces ? x : y) = std::move(*middle);
+      Rung middle = rung_at(0.5 * (x.t + y.t));
+      (middle.ends.faces == x.ends.faces ? x : y) = std::move(middle);
     }
     strip.rungs.push_back(std::move(x.ends));
     strip.rungs.push_back(std::move(y.ends));
@@ -306,10 +304,9 @@ RuledStrip ruled_strip(const Scene& scene, const OcclusionIndex& index,
   std::optional<Rung> last;
   for (int i = 0; i < count; ++i) {
     // The ends of the open interval are not part of the arc: stay a little inside.
-    std::optional<Rung> rung = rung_at((i + 1e-3) / (count - 1 + 2e-3));
-    if (!rung) continue;
-    if (last && last->ends.faces != rung->ends.faces) add_change(strip, *last, *rung);
-    strip.rungs.push_back(rung->ends);
+    Rung rung = rung_at((i + 1e-3) / (count - 1 + 2e-3));
+    if (last && last->ends.faces != rung.ends.faces) add_change(strip, *last, rung);
+    strip.rungs.push_back(rung.ends);
     last = std::move(rung);
   }
   return strip;

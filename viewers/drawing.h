@@ -52,7 +52,7 @@ struct RuledStrip {
 
 /// Sampled at `count` parameters of the arc, at least 2, and on both sides of every
 /// change of far end that these samples show.
-[[nodiscard]] RuledStrip ruled_strip(const Scene& scene, const OcclusionIndex& index,
+[[nodiscard]] RuledStrip ruled_strip(const Scene& scene, const SkeletonLines& lines,
                                      const Skeleton& skeleton, int arc, int count);
 
 /// The strip as veils, and as strokes where it ends on a face that is shown: where the

@@ -4,9 +4,10 @@
 
 #include <array>
 #include <optional>
+#include <vector>
 
-#include "linespace/occlusion.h"
 #include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton_lines.h"
 
 namespace sightline::viewers {
 
@@ -22,15 +23,18 @@ struct FarEnds {
 };
 
 /// Along the line through an arc's vertex and the point of its edge at parameter s.
-/// nullopt when rounding hides the line from itself.
-[[nodiscard]] std::optional<FarEnds> far_ends(const Scene& scene,
-                                              const OcclusionIndex& index,
-                                              const SkeletonArc& arc, double s);
+[[nodiscard]] FarEnds far_ends(const Scene& scene, const SkeletonLines& lines,
+                               const SkeletonArc& arc, double s);
 
-/// Along a node's line.
+/// Along a node's line; nullopt where SkeletonLines gives none.
 [[nodiscard]] std::optional<FarEnds> far_ends(const Scene& scene,
-                                              const OcclusionIndex& index,
+                                              const SkeletonLines& lines,
+                                              const Skeleton& skeleton,
                                               const SkeletonNode& node);
+
+/// Numbers of the file's polygons that the faces came from, ascending.
+[[nodiscard]] std::vector<int> source_polygons(const Scene& scene,
+                                               const std::vector<int>& faces);
 
 /// The point of an edge at parameter s, rounded to double.
 [[nodiscard]] Point point_on_edge(const Scene& scene, const Edge& edge, double s);

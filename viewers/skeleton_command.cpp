@@ -115,8 +115,8 @@ ExitStatus run(const SkeletonOptions& options) {
   answer["vertices_done"] = skeleton.vertices_done;
   answer["vertices_asked"] = skeleton.vertices_asked;
 
-  std::optional<OcclusionIndex> index;
-  if (options.list || options.extend) index.emplace(scene);
+  std::optional<SkeletonLines> lines;
+  if (options.list || options.extend) lines.emplace(scene);
   if (!options.output.empty()) {
     OutputFile file(options.output);
     write_skeleton_json(file.stream(), answer, scene, skeleton, nullptr);
@@ -126,7 +126,7 @@ ExitStatus run(const SkeletonOptions& options) {
     std::vector<RuledStrip> strips;
     if (options.extend) {
       for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
-        strips.push_back(ruled_strip(scene, *index, skeleton, static_cast<int>(i), 9));
+        strips.push_back(ruled_strip(scene, *lines, skeleton, static_cast<int>(i), 9));
       }
     }
     write_vtk(options.vtk, scene, {&skeleton, options.extend ? &strips : nullptr});
@@ -134,11 +134,11 @@ ExitStatus run(const SkeletonOptions& options) {
   if (!options.list || options.json.empty()) {
     write_answer(options, answer);
   } else if (options.json == "-") {
-    write_skeleton_json(std::cout, answer, scene, skeleton, &*index);
+    write_skeleton_json(std::cout, answer, scene, skeleton, &*lines);
     std::cout << std::flush;
   } else {
     OutputFile file(options.json);
-    write_skeleton_json(file.stream(), answer, scene, skeleton, &*index);
+    write_skeleton_json(file.stream(), answer, scene, skeleton, &*lines);
     file.commit();
   }
   if (options.may_print()) print_summary(scene, skeleton, answer);

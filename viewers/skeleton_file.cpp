@@ -36,6 +36,19 @@ Json contact_json(const Scene& scene, const Contact& contact) {
           {"touches", std::move(touches)}};
 }
 
+/// What ends a free segment on either side: polygons of the file, or "outside".
+Json ends_json(const std::array<std::vector<int>, 2>& ends) {
+  Json far = Json::array();
+  for (const std::vector<int>& faces : ends) {
+    if (faces.empty()) {
+      far.push_back("outside");
+    } else {
+      far.push_back({{"faces", faces}});
+    }
+  }
+  return far;
+}
+
 /// "contacts" (positions as parameters: 0 at the first, 1 at the second point of the
 /// element's own line) and "free_segment".
 void add_far_ends(Json& element, const Scene& scene, const std::optional<FarEnds>& ends) {
@@ -46,38 +59,8 @@ void add_far_ends(Json& element, const Scene& scene, const std::optional<FarEnds
   Json contacts = Json::array();
   for (const Contact& c : ends->contacts) contacts.push_back(contact_json(scene, c));
   element["contacts"] = std::move(contacts);
-  Json far = Json::array();
-  for (const std::vector<int>& faces : ends->faces) {
-    if (faces.empty()) {
-      far.push_back("outside");
-    } else {
-      far.push_back({{"faces", faces}});
-    }
-  }
-  element["free_segment"] = {{"points", points_json(ends->points)}, {"ends", far}};
-}
-
-/// The contact with the arc's own edge, at parameter 1, which the listed line passes at a
-/// distance below any rounding (see far_ends.cpp): put in its place among the others.
-void add_edge_contact(Json& arc, const Scene& scene, const Edge& edge) {
-  if (!arc.contains("contacts")) return;
-  Json touches = Json::array();
-  for (const Edge::Side& side : edge.sides) {
-    touches.push_back({{"face", scene.faces()[side.face].source}, {"at", "edge"}});
-  }
-  const Json own{
-      {"kind", "graze"}, {"from", 1.0}, {"to", 1.0}, {"touches", std::move(touches)}};
-  Json ordered = Json::array();
-  bool placed = false;
-  for (const Json& contact : arc["contacts"]) {
-    if (!placed && contact["from"].get<double>() > 1) {
-      ordered.push_back(own);
-      placed = true;
-    }
-    ordered.push_back(contact);
-  }
-  if (!placed) ordered.push_back(own);
-  arc["contacts"] = std::move(ordered);
+  element["free_segment"] = {{"points", points_json(ends->points)},
+                             {"ends", ends_json(ends->faces)}};
 }
 
 Generator generator_from(const Json& j) {
@@ -138,27 +121,34 @@ StoredSkeleton skeleton_from(const Json& j) {
 }  // namespace
 
 void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
-                         const Skeleton& skeleton, const OcclusionIndex* index) {
+                         const Skeleton& skeleton, const SkeletonLines* lines) {
   std::string text = head.dump(1);
   text.erase(text.find_last_not_of("}\n ") + 1);  // leave the object open
   stream << text << ",\n \"list\": {\n  \"nodes\": [";
   for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
     Json node = node_json(scene, skeleton, i);
-    if (index != nullptr) {
-      add_far_ends(node, scene, far_ends(scene, *index, skeleton.nodes[i]));
+    if (lines != nullptr) {
+      add_far_ends(node, scene, far_ends(scene, *lines, skeleton, skeleton.nodes[i]));
     }
     stream << (i == 0 ? "\n   " : ",\n   ") << node.dump();
   }
   stream << "\n  ],\n  \"arcs\": [";
   for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
     Json arc = arc_json(scene, skeleton, i);
-    if (index != nullptr) {
+    if (lines != nullptr) {
       const SkeletonArc& a = skeleton.arcs[i];
       const double middle = 0.5 * (a.range[0] + a.range[1]);
       arc["line"] = points_json(
           {scene.point(a.vertex), point_on_edge(scene, scene.edges()[a.edge], middle)});
-      add_far_ends(arc, scene, far_ends(scene, *index, a, middle));
-      add_edge_contact(arc, scene, scene.edges()[a.edge]);
+      add_far_ends(arc, scene, far_ends(scene, *lines, a, middle));
+      Json pieces = Json::array();
+      for (const SkeletonLines::Piece& piece : lines->pieces(a)) {
+        pieces.push_back(
+            {{"range", piece.range},
+             {"ends", ends_json({source_polygons(scene, piece.line.from_faces),
+                                 source_polygons(scene, piece.line.to_faces)})}});
+      }
+      arc["pieces"] = std::move(pieces);
     }
     stream << (i == 0 ? "\n   " : ",\n   ") << arc.dump();
   }

@@ -5,17 +5,17 @@
 #include <ostream>
 #include <string>
 
-#include "linespace/occlusion.h"
 #include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton_lines.h"
 #include "viewers/answer.h"
 
 namespace sightline::viewers {
 
 /// Writes `head` with one more key, "list": {"nodes": [...], "arcs": [...]}, one element
-/// at a time, so that no copy of it is held.  With an index, each element also has its
+/// at a time, so that no copy of it is held.  With lines, each element also has its
 /// "contacts" in order and its "free_segment" (null where rounding hides it).
 void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
-                         const Skeleton& skeleton, const OcclusionIndex* index);
+                         const Skeleton& skeleton, const SkeletonLines* lines);
 
 /// A skeleton read back, with the name of the scene it was made from.
 struct StoredSkeleton {

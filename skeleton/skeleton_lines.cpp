@@ -1,0 +1,248 @@
+#include "skeleton/skeleton_lines.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+
+#include "skeleton/degenerate_pair_internal.h"
+
+namespace sightline {
+namespace {
+
+using internal::ExactPoint;
+using internal::LineScan;
+using internal::Rational;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+ExactPoint along(const ExactPoint& a, const ExactPoint& b, const Rational& s) {
+  return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
+}
+
+Point rounded(const ExactPoint& p) {
+  return {p[0].convert_to<double>(), p[1].convert_to<double>(),
+          p[2].convert_to<double>()};
+}
+
+// Where a contact that holds position `start` blocks the line beyond it, going up or down
+// (`step` 1 or -1): the first instant past which the part from `start` on blocks.
+std::optional<Rational> blocked_beyond(const LineScan& scan, int contact,
+                                       const Rational& start, int step) {
+  std::vector<Rational> instants = scan.instants(contact);
+  if (step < 0) std::reverse(instants.begin(), instants.end());
+  for (std::size_t i = 0; i < instants.size(); ++i) {
+    const Rational& t = instants[i];
+    if (step > 0 ? t <= start : t >= start) continue;
+    const Rational beyond = i + 1 < instants.size() ? Rational((t + instants[i + 1]) / 2)
+                                                    : Rational(t + step);
+    const bool blocked = step > 0 ? scan.blocked_between(contact, start, beyond)
+                                  : scan.blocked_between(contact, beyond, start);
+    if (blocked) return t;
+  }
+  return std::nullopt;
+}
+
+// The free segment through positions 0 and 1, which is free itself.
+FreeSegment free_segment(const LineScan& scan) {
+  FreeSegment out{-kInfinity, kInfinity, {}, {}, {}};
+  const auto add = [&](int c) {
+    out.contacts.push_back({scan.from(c).convert_to<double>(),
+                            scan.to(c).convert_to<double>(), false, scan.touches(c)});
+  };
+  int low = -1;  // first contact from position 0 on
+  while (low + 1 < scan.size() && scan.to(low + 1) < 0) ++low;
+  // Downwards from the contact at 0.
+  std::vector<int> before;
+  for (int c = low + 1; c >= 0; --c) {
+    if (c >= scan.size() || scan.from(c) > 0) continue;
+    const bool through = scan.to(c) >= 0;
+    if (through) {
+      if (const auto t = scan.from(c) < 0 && scan.blocked(c)
+                             ? blocked_beyond(scan, c, 0, -1)
+                             : std::nullopt) {
+        out.from = t->convert_to<double>();
+        out.from_faces = scan.faces_at(c, *t);
+        break;
+      }
+      continue;
+    }
+    if (scan.blocked(c)) {
+      out.from = scan.to(c).convert_to<double>();
+      out.from_faces = scan.faces_at(c, scan.to(c));
+      break;
+    }
+    before.push_back(c);
+  }
+  for (auto c = before.rbegin(); c != before.rend(); ++c) add(*c);
+  for (int c = low + 1; c < scan.size(); ++c) {
+    if (scan.from(c) <= 1) {
+      add(c);
+      if (scan.to(c) > 1 && scan.blocked(c)) {
+        if (const auto t = blocked_beyond(scan, c, 1, 1)) {
+          out.to = t->convert_to<double>();
+          out.to_faces = scan.faces_at(c, *t);
+          break;
+        }
+      }
+      continue;
+    }
+    if (scan.blocked(c)) {
+      out.to = scan.from(c).convert_to<double>();
+      out.to_faces = scan.faces_at(c, scan.from(c));
+      break;
+    }
+    add(c);
+  }
+  return out;
+}
+
+}  // namespace
+
+struct SkeletonLines::Impl {
+  explicit Impl(const Scene& s) : scene(s), generators(s, 1) {}
+
+  [[nodiscard]] FreeSegment line(const ExactPoint& a, const ExactPoint& b) const {
+    const auto faces = faces_near_line(generators, rounded(a), rounded(b));
+    return free_segment(LineScan(scene, faces, a, b));
+  }
+  [[nodiscard]] ExactPoint point(int id) const {
+    return internal::exact_point(scene.point(id));
+  }
+  // Where the plane crosses the edge's line; nullopt when they are parallel.
+  [[nodiscard]] std::optional<ExactPoint> crossing(int edge, const ExactPoint& a,
+                                                   const ExactPoint& b,
+                                                   const ExactPoint& c) const {
+    const ExactPoint e0 = point(scene.edges()[edge].points[0]);
+    const ExactPoint e1 = point(scene.edges()[edge].points[1]);
+    const Rational x = internal::exact_orient(a, b, c, e0);
+    const Rational y = internal::exact_orient(a, b, c, e1);
+    if (x == y) return std::nullopt;
+    return along(e0, e1, x / (x - y));
+  }
+
+  const Scene& scene;
+  internal::Generators generators;
+};
+
+SkeletonLines::SkeletonLines(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+SkeletonLines::~SkeletonLines() = default;
+SkeletonLines::SkeletonLines(SkeletonLines&&) noexcept = default;
+
+FreeSegment SkeletonLines::line(const SkeletonArc& arc, double s) const {
+  const Edge& edge = impl_->scene.edges()[arc.edge];
+  return impl_->line(
+      impl_->point(arc.vertex),
+      along(impl_->point(edge.points[0]), impl_->point(edge.points[1]), Rational(s)));
+}
+
+std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) const {
+  const Scene& scene = impl_->scene;
+  const auto& g = impl_->generators;
+  const Edge& edge = scene.edges()[arc.edge];
+  const Point& v = scene.point(arc.vertex);
+  const Point& e0 = scene.point(edge.points[0]);
+  const Point& e1 = scene.point(edge.points[1]);
+  const PlaneSide plane({v, e0, e1});
+  const auto point_at = [&](double s) { return Point(e0 + s * (e1 - e0)); };
+  // Everything between the two end lines, ahead and behind: faces on both sides of, or
+  // in, the plane whose boxes are not wholly outside the double wedge.
+  const internal::BoundedPlane first =
+      internal::plane_from(v, point_at(arc.range[0]), v + (e1 - e0).cross(e0 - v).eval());
+  const internal::BoundedPlane second =
+      internal::plane_from(v, point_at(arc.range[1]), v + (e1 - e0).cross(e0 - v).eval());
+  std::vector<int> faces;
+  g.face_tree().traverse(
+      [&](const internal::Box& box) {
+        const auto b = internal::centred(box);
+        const std::array<double, 3> c{b.centre[0] - v[0], b.centre[1] - v[1],
+                                      b.centre[2] - v[2]};
+        const bool left = first.negative_on(c, b.half) && second.negative_on(c, b.half);
+        const bool right = first.positive_on(c, b.half) && second.positive_on(c, b.half);
+        return !left && !right;
+      },
+      [&](std::uint32_t item) {
+        const int f = static_cast<int>(item);
+        bool front = false;
+        bool back = false;
+        for (const int p : scene.face_points(f)) {
+          const Sign s = plane(scene.point(p));
+          front |= s != Sign::Negative;
+          back |= s != Sign::Positive;
+        }
+        if (front && back) faces.push_back(f);
+      });
+  std::sort(faces.begin(), faces.end());
+  std::deque<Rational> positions;
+  const auto cuts = critical_cuts(g, g.stars()[g.star_of_point(arc.vertex)], e0, e1,
+                                  plane, faces, positions);
+  std::vector<double> stops{arc.range[0]};
+  for (const auto& cut : cuts) {
+    const double s = cut.parameter();
+    if (s > stops.back() && s < arc.range[1]) stops.push_back(s);
+  }
+  stops.push_back(arc.range[1]);
+  const ExactPoint eye = internal::exact_point(v);
+  const ExactPoint x0 = internal::exact_point(e0);
+  const ExactPoint x1 = internal::exact_point(e1);
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const double middle = stops[i] + 0.5 * (stops[i + 1] - stops[i]);
+    if (!(middle > stops[i] && middle < stops[i + 1])) continue;
+    Piece piece{
+        {stops[i], stops[i + 1]},
+        free_segment(LineScan(scene, faces, eye, along(x0, x1, Rational(middle))))};
+    if (!pieces.empty() && pieces.back().line.from_faces == piece.line.from_faces &&
+        pieces.back().line.to_faces == piece.line.to_faces) {
+      pieces.back().range[1] = stops[i + 1];
+      continue;
+    }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+std::optional<FreeSegment> SkeletonLines::line(const Skeleton& skeleton,
+                                         const SkeletonNode& node) const {
+  if (node.end) return std::nullopt;
+  const auto generators = skeleton.generators(node);
+  std::vector<int> vertices, edges, facets;
+  for (const Generator& g : generators) {
+    (g.kind == GeneratorKind::Vertex ? vertices
+     : g.kind == GeneratorKind::Edge ? edges
+                                     : facets)
+        .push_back(g.id);
+  }
+  if (vertices.size() >= 2) {
+    return impl_->line(impl_->point(vertices.front()), impl_->point(vertices.back()));
+  }
+  if (vertices.size() != 1 || edges.empty()) return std::nullopt;
+  const ExactPoint v = impl_->point(vertices[0]);
+  const Scene& scene = impl_->scene;
+  const int last = edges.back();
+  if (edges.size() == 2) {
+    const auto& other = scene.edges()[edges.front()].points;
+    const auto x =
+        impl_->crossing(last, v, impl_->point(other[0]), impl_->point(other[1]));
+    if (!x) return std::nullopt;
+    if (node.kind != NodeKind::EVE) return impl_->line(v, *x);
+    const auto& far = scene.edges()[last].points;
+    const auto y =
+        impl_->crossing(edges.front(), v, impl_->point(far[0]), impl_->point(far[1]));
+    if (!y) return std::nullopt;
+    return impl_->line(*y, *x);
+  }
+  if (edges.size() == 1 && facets.size() == 1) {
+    // The face of the facet at the vertex gives the plane.
+    for (const int f : scene.faces_at(vertices[0])) {
+      if (scene.faces()[f].facet != facets[0]) continue;
+      const auto p = internal::plane_points(scene, f);
+      const auto x = impl_->crossing(last, impl_->point(p[0]), impl_->point(p[1]),
+                                     impl_->point(p[2]));
+      if (x) return impl_->line(v, *x);
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace sightline
