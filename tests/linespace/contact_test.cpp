@@ -706,6 +706,54 @@ TEST(ContactCases, TwoSlitsOfSecondOrder) {
                   "B");
 }
 
+// Sides at x = 0, 1, 2, 3 along four lines of the surface z = x y, on alternating sides
+// of it.  To first order only its other lines are left, which meet all four sides; the
+// slopes together decide whether lines near them pass: with the k of each side on its own
+// side of the slope there, k0 - 3 k1 + 3 k2 - k3 = 0.
+TEST(ContactCases, FourSidesOfARegulus) {
+  const auto scene = [](std::array<int, 4> slopes) {
+    Polygons out = {fin(0, 3, {-1, 1})};
+    for (int x = 0; x < 4; ++x) {
+      const int s = x % 2 == 0 ? 2 : -2;
+      const Point p(x - slopes[x], -1, -x), q(x + slopes[x], 1, x), aside(0, s * x, -s);
+      out.push_back({p, q, q + aside, p + aside});
+    }
+    return out;
+  };
+  expect_verdicts(scene({0, 0, 0, 0}), kAxisFrom, kAxisTo, "B");
+  expect_verdicts(scene({-1, 0, 0, 0}), kAxisFrom, kAxisTo, "B");
+  expect_verdicts(scene({3, 1, 0, 0}), kAxisFrom, kAxisTo, "B");
+  expect_verdicts(scene({4, 1, 0, 0}), kAxisFrom, kAxisTo, "g", false);
+  expect_verdicts(scene({0, 1, 2, 1}), kAxisFrom, kAxisTo, "g", false);
+  expect_verdicts(scene({0, 2, 1, -3}), kAxisFrom, kAxisTo, "B");
+  const Polygons open = scene({1, 0, 0, 0});
+  expect_verdicts(open, kAxisFrom, kAxisTo, "g", false);
+  // k = 0.7, 0.1, -0.1, 0.1
+  const double e = 0x1p-8;
+  const Point w0(0, e, -0.7 * e * e), w1(0, 0.2 * e * e, e + 0.8 * e * e);
+  const Lattice p = lattice(w0), q = lattice(Point(4, 0, 0) + w0 + 4 * w1);
+  const Scene open_scene(soup_of(open));
+  for (const int f : all_faces(open_scene)) EXPECT_FALSE(line_meets(open_scene, f, p, q));
+}
+
+// A notch in the ground whose tip is on the line lets lines through that are moved aside.
+TEST(ContactCases, NotchedGround) {
+  const Polygons ends = half_plane(0, {-4, 0}) + half_plane(8, {4, 0});
+  const Polygons left = {fin(0, 8, {-3, 0})};
+  const Polygons notched = {{{0, 0, 0}, {4, 0, 0}, {3, 4, 0}, {0, 4, 0}},
+                            {{4, 0, 0}, {8, 0, 0}, {8, 4, 0}, {5, 4, 0}}};
+  expect_verdicts(ends + left + notched, kAxisFrom, kAxisTo, "g");
+  const auto wedge = [](double low, double high) {
+    return std::vector<Point>{{4, 0, 0}, {low, 4, 0}, {high, 4, 0}};
+  };
+  expect_verdicts(ends + left + notched + Polygons{wedge(3, 4), wedge(4.5, 5)}, kAxisFrom,
+                  kAxisTo, "g");
+  expect_verdicts(ends + left + notched + Polygons{wedge(3, 4), wedge(4, 5)}, kAxisFrom,
+                  kAxisTo, "B");
+  expect_verdicts(ends + left + Polygons{fin(0, 4, {3, 0}), fin(4, 8, {3, 0})}, kAxisFrom,
+                  kAxisTo, "B");
+}
+
 // A ground of many small faces is one barrier, whatever they are cut into.
 TEST(ContactCases, TriangulatedGround) {
   Polygons ground;
@@ -850,6 +898,49 @@ TEST(Contact, AgreesWithPerturbedLinesAlongAnAxis) {
   std::printf("blocked %d, grazed %d\n", blocked, grazed);
   EXPECT_GT(blocked, 20);
   EXPECT_GT(grazed, 20);
+}
+
+// The same with sides that recede from the instant at different slopes, and faces edge-on
+// that meet the axis in a point: the second order, mostly.
+TEST(Contact, AgreesWithPerturbedLinesAtOneInstant) {
+  int blocked = 0, grazed = 0;
+  const std::vector<std::array<double, 2>> rays = {{2, 0},  {2, 2},   {0, 2},  {-2, 2},
+                                                   {-2, 0}, {-2, -2}, {0, -2}, {2, -2}};
+  for (unsigned seed = 1; seed <= 1000; ++seed) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
+    testing::Random random(seed);
+    const auto corner = [&](int ray) {
+      const auto& r = rays[ray % 8];
+      return Point(random.integer(-2, 2), r[0], r[1]);
+    };
+    Polygons polygons;
+    const int angles = random.integer(4, 12), flat = random.integer(0, 4);
+    for (int i = 0; i < angles; ++i) {
+      const int ray = random.integer(0, 7);
+      polygons.push_back(
+          {Point(0, 0, 0), corner(ray), corner(ray + random.integer(1, 3))});
+    }
+    for (int i = 0; i < flat; ++i) {
+      // A wedge, or a barrier before or after.
+      const int ray = random.integer(0, 7);
+      Point other = corner(ray);
+      if (random.one_in(2)) other = Point(random.one_in(2) ? -4 : 4, 0, 0);
+      Point p = corner(ray);
+      if (p == other) p.x() += 1;
+      polygons.push_back({Point(0, 0, 0), p, other});
+    }
+    const Scene scene(soup_of(polygons));
+    const auto contacts = line_contacts(scene, all_faces(scene), kAxisFrom, kAxisTo);
+    ASSERT_EQ(contacts.size(), 1u);
+    (contacts[0].blocked ? blocked : grazed)++;
+    const bool passes =
+        some_perturbed_line_passes(scene, contacts[0], kAxisFrom, kAxisTo, random,
+                                   contacts[0].blocked ? 3000 : 500000);
+    ASSERT_EQ(passes, !contacts[0].blocked);
+  }
+  std::printf("blocked %d, grazed %d\n", blocked, grazed);
+  EXPECT_GT(blocked, 100);
+  EXPECT_GT(grazed, 100);
 }
 
 }  // namespace
