@@ -63,7 +63,7 @@ TEST_F(VtkExport, EveryArcAndNodeIsThereInItsColour) {
 }
 
 TEST_F(VtkExport, StripsReachTheFacesThatEndThem) {
-  const OcclusionIndex index(scene_);
+  const SkeletonLines index(scene_);
   int ended = 0;
   for (const int arc : evenly_spread(skeleton_.arcs.size(), 40)) {
     const RuledStrip strip = ruled_strip(scene_, index, skeleton_, arc, 5);
