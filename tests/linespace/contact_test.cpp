@@ -699,6 +699,9 @@ TEST(ContactCases, TwoSlitsOfSecondOrder) {
   expect_verdicts(both + Polygons{fin(0, 4, {1, 1})}, kAxisFrom, kAxisTo, "g", false);
   expect_verdicts(both + Polygons{fin(0, 4, {1, 1}), fin(0, 4, {-1, -1})}, kAxisFrom,
                   kAxisTo, "B");
+  // On the same or the opposite ray at both: no straight motion is.
+  expect_verdicts(slit(0, false, 1, -1) + slit(4, false, 1, -1) + joint, kAxisFrom,
+                  kAxisTo, "B");
   // One counter-clockwise, the other clockwise; and one closed.
   expect_verdicts(slit(0, false, 1, -1) + slit(4, true, 1, -1) + joint, kAxisFrom,
                   kAxisTo, "B");
