@@ -36,7 +36,9 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
   std::vector<Generator> found;
   std::vector<int> facets;
   const auto add_edge = [&](int edge) {
-    if (edge >= 0) found.push_back({GeneratorKind::Edge, edge});
+    if (edge < 0) return;
+    const int ridge = g.ridge_of_edge(edge);
+    found.push_back({GeneratorKind::Edge, ridge < 0 ? edge : g.ridges()[ridge].edge});
   };
   const auto touches = scan.touches(contact);
   for (const Touch& t : touches) {
@@ -140,7 +142,11 @@ std::vector<std::int32_t> objects_of(const Generators& g, const Generator& x) {
     const auto o = g.objects_at(x.id);
     return {o.begin(), o.end()};
   }
-  if (x.kind == GeneratorKind::Edge) return {scene.edges()[x.id].object};
+  if (x.kind == GeneratorKind::Edge) {
+    const int ridge = g.ridge_of_edge(x.id);
+    if (ridge >= 0) return g.ridges()[ridge].objects;
+    return {scene.edges()[x.id].object};
+  }
   return {scene.facets()[x.id].object};
 }
 
@@ -377,8 +383,8 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
     return along(x0, x1, (s + t) / 2);
   };
   const auto own = g.objects_at(star.point);
-  const int object = scene.edges()[ridge.edge].object;
-  const bool self = own.size() == 1 && own[0] == object;
+  const bool self =
+      own.size() == 1 && ridge.objects.size() == 1 && own[0] == ridge.objects[0];
 
   for (const CutInterval& open : closed.complement()) {
     std::vector<Cut> stops{open.from};

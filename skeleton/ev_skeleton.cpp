@@ -54,9 +54,10 @@ Selection selected_ridges(const Generators& g, const SkeletonRequest& request) {
   const Scene& scene = g.scene();
   for (const auto& ridge : g.ridges()) {
     const auto& wanted = request.edge_objects;
-    const int object = scene.edges()[ridge.edge].object;
-    bool asked =
-        wanted.empty() || std::find(wanted.begin(), wanted.end(), object) != wanted.end();
+    bool asked = wanted.empty() ||
+                 std::any_of(ridge.objects.begin(), ridge.objects.end(), [&](int o) {
+                   return std::find(wanted.begin(), wanted.end(), o) != wanted.end();
+                 });
     if (request.region) {
       asked = asked && in_box(*request.region, scene.point(ridge.points[0])) &&
               in_box(*request.region, scene.point(ridge.points[1]));

@@ -386,14 +386,19 @@ void Generators::find_ridges() {
     // Edges of several objects that coincide are one generator.
     if (!ridges_.empty() && ridges_.back().points == e.points) {
       ridges_.back().touched = true;
+      ridges_.back().objects.push_back(e.object);
+      ridge_of_edge_[i] = static_cast<int>(ridges_.size() - 1);
       continue;
     }
     if (touched == EdgeTouch::ContainsInside) continue;
     ridge_of_edge_[i] = static_cast<int>(ridges_.size());
     // Behind both planes is the wedge.
-    ridges_.push_back(
-        {static_cast<std::int32_t>(i), e.points, PlaneSide({e1, e0, s.point(thirds[a])}),
-         PlaneSide({e0, e1, s.point(thirds[b])}), touched == EdgeTouch::Touches});
+    ridges_.push_back({static_cast<std::int32_t>(i),
+                       {e.object},
+                       e.points,
+                       PlaneSide({e1, e0, s.point(thirds[a])}),
+                       PlaneSide({e0, e1, s.point(thirds[b])}),
+                       touched == EdgeTouch::Touches});
     boxes.push_back(box);
   }
   ridge_tree_ = Bvh(boxes);

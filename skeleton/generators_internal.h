@@ -21,7 +21,8 @@ namespace sightline::internal {
 /// point of the edge grazes iff it does not pass from the wedge into its opposite, that
 /// is, iff the viewpoint is not strictly inside one of the two.
 struct Ridge {
-  std::int32_t edge;
+  std::int32_t edge;  ///< the first, where edges of several objects coincide
+  std::vector<std::int32_t> objects;  ///< of all coinciding edges
   std::array<std::int32_t, 2> points;
   /// Oriented so that the wedge is behind both.
   PlaneSide a, b;
@@ -57,7 +58,8 @@ class Generators {
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] std::span<const Ridge> ridges() const { return ridges_; }
-  /// Ridge number of a scene edge, -1 when lines never graze it.
+  /// Ridge number of a scene edge (the same for coinciding ones), -1 when lines never
+  /// graze it.
   [[nodiscard]] int ridge_of_edge(int edge) const { return ridge_of_edge_[edge]; }
   [[nodiscard]] std::span<const Star> stars() const { return stars_; }
   /// Position in stars() of a corner point, -1 for other points.

@@ -203,7 +203,7 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) 
 }
 
 std::optional<FreeSegment> SkeletonLines::line(const Skeleton& skeleton,
-                                         const SkeletonNode& node) const {
+                                               const SkeletonNode& node) const {
   if (node.end) return std::nullopt;
   const auto generators = skeleton.generators(node);
   std::vector<int> vertices, edges, facets;

@@ -428,7 +428,10 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     if (!recent_.empty() && ends_hidden(shadows_[recent_[0]])) return;
   }
   const Edge& edge = scene_.edges()[r.edge];
-  if (g_.convex_solid(edge.object) && contains(own_objects_, edge.object)) return;
+  const bool own_solid = std::all_of(r.objects.begin(), r.objects.end(), [&](int o) {
+    return g_.convex_solid(o) && contains(own_objects_, o);
+  });
+  if (own_solid) return;
   if (collinear(at_, e0, e1)) return;  // along the edge: no family of lines
 
   Pair pair{
@@ -480,7 +483,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     return;
   }
   const bool mild = pair.mild || !ends_are_simple(pair, open);
-  const bool self = own_objects_.size() == 1 && own_objects_[0] == edge.object;
+  const bool self = own_objects_ == r.objects && own_objects_.size() == 1;
   for (const CutInterval& i : open) {
     SkeletonArc arc;
     arc.vertex = point_;

@@ -160,7 +160,7 @@ Comparison compare_line_by_line(const PolygonSoup& soup, int samples_per_edge) {
         // Generators are those of the single solids, contacts those of their union: a
         // corner or edge that a touching solid smooths over may keep free lines.
         const bool generators = boxes.is_corner(from) && boxes.is_ridge(to, axis);
-        if (free && !generators) {
+        if (!generators && (free || edge_on)) {
           ++result.seams;
         } else if (ours != free) {
           ++result.wrong;
