@@ -176,10 +176,13 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) 
   std::deque<Rational> positions;
   const auto cuts = critical_cuts(g, g.stars()[g.star_of_point(arc.vertex)], e0, e1,
                                   plane, faces, positions);
+  // Rounded positions are within 8 units of the last place of 1 of the exact ones (see
+  // make_cut): two that are closer than twice that may be one.
+  constexpr double kSame = 16 * std::numeric_limits<double>::epsilon();
   std::vector<double> stops{arc.range[0]};
   for (const auto& cut : cuts) {
     const double s = cut.parameter();
-    if (s > stops.back() && s < arc.range[1]) stops.push_back(s);
+    if (s > stops.back() + kSame && s < arc.range[1] - kSame) stops.push_back(s);
   }
   stops.push_back(arc.range[1]);
   const ExactPoint eye = internal::exact_point(v);
@@ -199,6 +202,7 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) 
     }
     pieces.push_back(std::move(piece));
   }
+  if (!pieces.empty()) pieces.back().range[1] = arc.range[1];
   return pieces;
 }
 
