@@ -214,6 +214,8 @@ std::vector<int> faces_near_line(const Generators& g, const Point& a, const Poin
   const Point d = b - a;
   const double grow =
       1024 * std::numeric_limits<double>::epsilon() * size * (1 + size / d.norm());
+  // Each bound is rounded twice, relatively: generous, since a false hit costs little.
+  constexpr double slack = 1024 * std::numeric_limits<double>::epsilon();
   g.face_tree().traverse(
       [&](const Box& box) {
         double t0 = -std::numeric_limits<double>::infinity();
@@ -230,7 +232,7 @@ std::vector<int> faces_near_line(const Generators& g, const Point& a, const Poin
           t0 = std::max(t0, std::min(p, q));
           t1 = std::min(t1, std::max(p, q));
         }
-        return t0 <= t1 + 1e-9 * (std::abs(t0) + std::abs(t1));
+        return t0 <= t1 + slack * (std::abs(t0) + std::abs(t1));
       },
       [&](std::uint32_t f) { found.push_back(static_cast<int>(f)); });
   std::sort(found.begin(), found.end());

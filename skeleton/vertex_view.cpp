@@ -314,7 +314,8 @@ int VertexViewer::first_face_hit(const Point& target) const {
       const Point n = (scene_.point(corners[1]) - a).cross(scene_.point(corners[2]) - a);
       const double slope = n.dot(d);
       const double t = n.dot(a - at_) / slope;
-      if (!(t > 1e-9 && t < nearest)) continue;
+      if (facet_stamp_[scene_.faces()[f].facet] == stamp_) continue;
+      if (!(t > 0 && t < nearest)) continue;
       bool inside = true;
       for (std::size_t k = 0; k < corners.size() && inside; ++k) {
         const Point p = scene_.point(corners[k]) - at_;
