@@ -55,8 +55,8 @@ install_packages() {
   return_proc
 }
 
-# libvtk9-dev brings Java, which cannot be set up without /proc; a bare chroot has none.
-# Mounted for the installation only, and left as it was found.
+# A bare chroot has no /proc, but Java, which libvtk9-dev brings, cannot be set up without.
+# Mounted until return_proc or the end of the script, and left as it was found.
 lend_proc() {
   [[ ! -e /proc/self ]] || return 0
   if ! mount -t proc proc /proc 2>/dev/null; then
