@@ -21,10 +21,6 @@
 #include <embree3/rtcore.h>
 
 #include <Eigen/Geometry>
-#if __has_include(<sys/mman.h>)
-#include <sys/mman.h>
-#endif
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
