@@ -1,4 +1,5 @@
-// What blocks a line: contacts in order, free segments, and the faces that meet a triangle.
+// What blocks a line: contacts in order, free segments, and the faces that meet a
+// triangle.
 //
 // Embree proposes, exact contact tests dispose.  The definitions of contact, blocked,
 // grazing and free are those of docs/contacts.md.
@@ -79,7 +80,8 @@ class OcclusionIndex {
   [[nodiscard]] std::optional<FreeSegment> maximal_free_segment(const Point& a,
                                                                 const Point& b) const;
 
-  /// Ids of all faces that have a point in common with the closed triangle abc, ascending.
+  /// Ids of all faces that have a point in common with the closed triangle abc,
+  /// ascending.
   [[nodiscard]] std::vector<int> faces_meeting_triangle(const Point& a, const Point& b,
                                                         const Point& c) const;
 

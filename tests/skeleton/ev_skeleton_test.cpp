@@ -30,7 +30,8 @@ void add_box(PolygonSoup& soup, const char* name, const Point& low, const Point&
   soup.groups.push_back({name, {f, f + 1, f + 2, f + 3, f + 4, f + 5}});
 }
 
-// Two tetrahedra, a corner of each in the plane x = 0, and between them a wall of two boxes with a slit of width `gap`.
+// Two tetrahedra, a corner of each in the plane x = 0, and between them a wall of two
+// boxes with a slit of width `gap`.
 PolygonSoup slit_scene(double gap) {
   PolygonSoup soup;
   add_box(soup, "left", {-5, -0.1, -5}, {-gap / 2, 0.1, 5});
