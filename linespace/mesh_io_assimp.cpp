@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 
 #include "linespace/mesh_io_internal.h"
 
@@ -136,6 +138,38 @@ class SceneWalker {
   std::vector<NamedRange> ranges_;
 };
 
+std::uint64_t little_endian(std::string_view bytes, std::size_t at) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 4; i-- > 0;) {
+    value = 256 * value + static_cast<unsigned char>(bytes[at + i]);
+  }
+  return value;
+}
+
+// Refuses a binary glTF file that announces more bytes than it has: assimp makes room for
+// what a chunk announces, gigabytes at worst, before it reads.  What is no binary glTF is
+// left to assimp.  The first length of version 1 stands where that of version 2 does.
+void check_glb(const std::string& path, std::string_view bytes) {
+  constexpr std::size_t kHeader = 12;  // "glTF", version, bytes in all
+  constexpr std::size_t kChunkHeader = 8;
+  if (!bytes.starts_with("glTF")) return;
+  const auto announces = [&](const std::string& what, std::uint64_t count,
+                             std::uint64_t there) {
+    if (count <= there) return;
+    refuse(path, "announces " + what + std::to_string(count) + " bytes, but has " +
+                     std::to_string(there));
+  };
+  if (bytes.size() < kHeader + kChunkHeader) refuse(path, "ends inside the header");
+  announces("", little_endian(bytes, 8), bytes.size());
+  const bool has_chunks = little_endian(bytes, 4) >= 2;
+  std::size_t at = kHeader;
+  do {
+    const std::uint64_t length = little_endian(bytes, at);
+    announces("a chunk of ", length, bytes.size() - at - kChunkHeader);
+    at += kChunkHeader + (length + 3) / 4 * 4;  // chunks start at multiples of four
+  } while (has_chunks && at + kChunkHeader <= bytes.size());
+}
+
 std::string one_line(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
@@ -150,6 +184,7 @@ PolygonSoup read_with_assimp(const std::string& path, const std::string& extensi
     refuse(path, "no mesh format is known by the extension " + quoted(extension));
   }
   if (extension == "ifc") check_step(path, load_file(path));
+  if (extension == "glb") check_glb(path, load_file(path));
   try {
     Assimp::Importer importer;
     // Polygons stay whole where the format has them: Scene cuts them exactly.

@@ -86,12 +86,9 @@ struct Skeleton {
   }
 };
 
-/// Builds the EV arcs of a scene with the nodes at their ends, and the EVE nodes.
+/// Builds the EV arcs of a scene with the nodes at their ends, and the EVE nodes.  What
+/// else lies along their lines: skeleton_lines.h.
 [[nodiscard]] Skeleton build_ev_skeleton(const Scene& scene,
                                          const SkeletonRequest& request = {});
-
-/// What lies along an arc's line at parameter s of its edge: all contacts in order along
-/// the maximal free segment, and what ends it on either side.
-/// Computed on demand by OcclusionIndex; see maximal_free_segment there.
 
 }  // namespace sightline

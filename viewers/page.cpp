@@ -28,6 +28,7 @@ figure { margin:14px 0; background:var(--card); border:1px solid var(--line);
   border-radius:10px; overflow:hidden; }
 figure img { display:block; width:100%; height:auto; }
 figcaption { padding:10px 16px 12px; border-top:1px solid var(--line); }
+h1, figcaption, td, th { overflow-wrap:anywhere; }
 .pair { display:grid; grid-template-columns:repeat(auto-fit,minmax(320px,1fr)); gap:14px; }
 .pair figure { margin:0; }
 table { border-collapse:collapse; width:100%; background:var(--card);
@@ -166,6 +167,12 @@ std::string predicates_section(const Json& report) {
   return html + "</table>\n";
 }
 
+// The scene's file without its folders, which say nothing to whom the page is sent.
+std::string file_name(const Json& report) {
+  const std::string file = report["scene"]["file"].get<std::string>();
+  return html_escaped(file.substr(file.find_last_of('/') + 1));
+}
+
 std::string scene_section(const Json& report) {
   const Json& info = report["info"];
   const Json& edges = info["edges"];
@@ -174,8 +181,7 @@ std::string scene_section(const Json& report) {
   };
   const auto number = [](const Json& j) { return grouped(j.get<std::int64_t>()); };
   std::string html = "<h2>The scene</h2>\n<div class=two><table>\n";
-  html += "<tr><th>" + html_escaped(report["scene"]["file"].get<std::string>()) +
-          "</th><th></th></tr>\n";
+  html += "<tr><th>" + file_name(report) + "</th><th></th></tr>\n";
   html += row("vertices", number(info["vertices"]));
   html += row("faces", number(info["faces"]));
   html += row("coplanar facets", number(info["facets"]));
@@ -318,7 +324,7 @@ std::string report_page(const Json& report, const std::vector<PagePicture>& pict
       if (n.is_number()) nodes += n.get<std::int64_t>();
     }
   }
-  const std::string scene = html_escaped(report["scene"]["file"].get<std::string>());
+  const std::string scene = file_name(report);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
       "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n"

@@ -162,6 +162,10 @@ TEST(ReadMesh, NamesLineOrElement) {
   expect("gigantic_list.ply", "face 0 announces a list of 4294967295 values");
   expect("nan_binary.ply", "vertex 1 has a coordinate that is not finite");
   expect("nan_binary.stl", "triangle 0 has a coordinate that is not finite");
+  if (is_readable("any.glb")) {
+    expect("gigantic_chunk.glb", "announces a chunk of 4261413476 bytes, but has 28");
+    expect("truncated.glb", " bytes, but has 200");
+  }
   expect("gigantic.stl", "announces 4294967295 triangles");
   expect("unknown.extension", "no mesh format is known by the extension 'extension'");
   EXPECT_NE(complaint(data("no_such_file.obj")).find("cannot be opened"),
