@@ -127,9 +127,10 @@ void PolygonSampler::add(int polygon, std::span<const Point> corners) {
   for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
     const Point to_b = corners[i] - corners[0], to_c = corners[i + 1] - corners[0];
     const double area = to_b.cross(to_c).norm() / 2;
-    if (area == 0) continue;
+    const double start = ends_.empty() ? 0 : ends_.back();
+    if (start + area == start) continue;  // no share of the numbers
     triangles_.push_back({corners[0], to_b, to_c, normal, polygon});
-    ends_.push_back((ends_.empty() ? 0 : ends_.back()) + area);
+    ends_.push_back(start + area);
   }
 }
 
@@ -142,10 +143,13 @@ void PolygonSampler::check_area() const {
 
 PolygonSampler::Sample PolygonSampler::point(SampleNumbers& numbers) const {
   const double at = numbers.uniform() * ends_.back();
-  double u = numbers.uniform(), v = numbers.uniform();
   // The product may round up to the whole area.
   const auto end = std::upper_bound(ends_.begin(), ends_.end() - 1, at);
-  const Triangle& t = triangles_[static_cast<std::size_t>(end - ends_.begin())];
+  const auto i = static_cast<std::size_t>(end - ends_.begin());
+  const Triangle& t = triangles_[i];
+  // Where in its share of the areas the number fell is uniform again.
+  const double start = i > 0 ? ends_[i - 1] : 0;
+  double u = std::min(1.0, (at - start) / (ends_[i] - start)), v = numbers.uniform();
   if (u + v > 1) {  // the other half of the parallelogram
     u = 1 - u;
     v = 1 - v;

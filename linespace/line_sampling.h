@@ -92,7 +92,9 @@ class PolygonSampler {
     int polygon;   ///< position in what the constructor was given
     Point normal;  ///< unit length, to the front
   };
-  /// Three numbers are used.  A coordinate nearer to 0 than predicates accept becomes 0.
+  /// Two numbers are used.  A triangle with a share s of the area has 2^53 s rows of
+  /// points; one with less than 2^-53 may have none.  A coordinate nearer to 0 than
+  /// predicates accept becomes 0.
   [[nodiscard]] Sample point(SampleNumbers& numbers) const;
 
   [[nodiscard]] double area() const { return ends_.back(); }  ///< scene units squared
