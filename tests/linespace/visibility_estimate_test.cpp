@@ -237,6 +237,7 @@ TEST(VisibilityEstimate, EndFacesDoNotBlock) {
   const int bottom = horizontal(0), top = horizontal(1), above = horizontal(3);
   // Across a box's inside, and across the gap.
   EXPECT_EQ(estimate(index, bottom, top).fraction.value, 1);
+  EXPECT_EQ(estimate(index, bottom, top).doubtful, 0);  // not even looked at
   EXPECT_EQ(estimate(index, top, above).fraction.value, 1);
   // Through the top; nothing found is not proved, and the interval says so.
   const VisibilityEstimate e = estimate(index, bottom, above);
