@@ -29,6 +29,7 @@
 
 #include "linespace/bvh_internal.h"
 #include "linespace/contact_internal.h"
+#include "linespace/occlusion_internal.h"
 
 #if __has_include(<sys/mman.h>)
 #include <sys/mman.h>
@@ -96,6 +97,7 @@ struct Line {
   double a[3], b[3], d[3];
   double s_bound, n_bound;  // see passage()
 
+  Line() = default;
   // low, high: the box of all points that will be asked about.
   Line(const Point& p, const Point& q, const std::array<Point, 2>& bounds) {
     const Point e = q - p;
@@ -264,13 +266,15 @@ struct OcclusionIndex::Impl {
   void choose_frame();
   void build();
 
-  // What an Embree call of ours carries.
+  // What an Embree call of ours carries.  Of a packet of rays, the one with id r has the
+  // line lines[r] and so on.  A ray that certainly crosses an item ends up with a
+  // negative tfar, as is Embree's way.
   struct Query {
     RTCIntersectContext context;  // first: Embree hands out its address
-    const Line* line;
+    const Line* lines;
     const Item* items;
-    std::vector<int>* faces;
-    bool crossed = false;     // certainly
+    std::vector<int>* faces;                      // that perhaps meet the line, per ray
+    const internal::FaceSegment* ends = nullptr;  // whose end faces do not count, per ray
     bool whole_line = false;  // faces_near(): whatever meets the line is wanted
     // nearest(): +1 past b, -1 before a; the ray's range; the answer.
     int beyond = 0;
@@ -284,6 +288,9 @@ struct OcclusionIndex::Impl {
                                             double t1) const;
   [[nodiscard]] std::optional<bool> is_free_for_certain(const Point& a, const Point& b,
                                                         std::vector<int>& doubtful) const;
+  void ask_packet(std::span<const internal::FaceSegment> segments,
+                  std::span<internal::Certainty> answers,
+                  std::span<std::vector<int>> doubtful) const;
 };
 
 OcclusionIndex::Impl::Impl(const Scene& scene_)
@@ -363,25 +370,30 @@ void OcclusionIndex::Impl::build() {
       },
       nullptr);
   rtcSetGeometryOccludedFunction(geometry, [](const RTCOccludedFunctionNArguments* args) {
-    auto& query = *reinterpret_cast<Query*>(args->context);
+    const auto& query = *reinterpret_cast<const Query*>(args->context);
     const Item& item = query.items[args->primID];
-    if (query.whole_line) {
-      if (certify(*query.line, item).line == Passage::Misses) return;
-    } else {
-      const Passage passage = segment_passage(*query.line, item);
-      if (passage == Passage::Misses) return;
-      if (passage == Passage::Crosses) {
-        query.crossed = true;
-        RTCRayN_tfar(args->ray, 1, 0) = -std::numeric_limits<float>::infinity();
-        return;
+    for (unsigned n = 0; n < args->N; ++n) {
+      if (!args->valid[n]) continue;
+      const unsigned r = RTCRayN_id(args->ray, args->N, n);
+      if (query.ends &&
+          (item.face == query.ends[r].face_a || item.face == query.ends[r].face_b)) {
+        continue;
+      }
+      const Line& line = query.lines[r];
+      const Passage passage =
+          query.whole_line ? certify(line, item).line : segment_passage(line, item);
+      if (passage == Passage::Misses) continue;
+      if (passage == Passage::Crosses && !query.whole_line) {
+        RTCRayN_tfar(args->ray, args->N, n) = -std::numeric_limits<float>::infinity();
+      } else {
+        query.faces[r].push_back(item.face);
       }
     }
-    query.faces->push_back(item.face);
   });
   rtcSetGeometryIntersectFunction(
       geometry, [](const RTCIntersectFunctionNArguments* args) {
         auto& query = *reinterpret_cast<Query*>(args->context);
-        const Line& line = *query.line;
+        const Line& line = *query.lines;
         const Crossing c = certify(line, query.items[args->primID]);
         if (c.line != Passage::Crosses) return;
         if (query.beyond > 0 ? c.past_b <= 0 : c.past_a >= 0) return;
@@ -462,23 +474,65 @@ std::optional<bool> OcclusionIndex::Impl::is_free_for_certain(
   const Line line(a, b, scene.bounds());
   Query query;
   rtcInitIntersectContext(&query.context);
-  query.line = &line;
+  query.lines = &line;
   query.items = items.data();
   query.faces = &doubtful;
   FloatRay r = float_ray(a, b, 0, 1);
   if (r.where == FloatRay::Outside) return true;
   if (r.where == FloatRay::TooFar) {
-    for (std::size_t n = 0; n < items.size() && !query.crossed; ++n) {
-      const Passage passage = segment_passage(line, items[n]);
-      if (passage == Passage::Crosses) query.crossed = true;
-      if (passage == Passage::Doubtful) doubtful.push_back(items[n].face);
+    for (const Item& item : items) {
+      const Passage passage = segment_passage(line, item);
+      if (passage == Passage::Crosses) return false;
+      if (passage == Passage::Doubtful) doubtful.push_back(item.face);
     }
   } else {
     rtcOccluded1(boxes, &query.context, &r.ray);
+    if (r.ray.tfar < 0) return false;
   }
-  if (query.crossed) return false;
   if (doubtful.empty()) return true;
   return std::nullopt;
+}
+
+// The same for a packet of segments within the scene's box, without their end faces.
+void OcclusionIndex::Impl::ask_packet(std::span<const internal::FaceSegment> segments,
+                                      std::span<internal::Certainty> answers,
+                                      std::span<std::vector<int>> doubtful) const {
+  const int count = static_cast<int>(segments.size());
+  std::array<Line, internal::kPacket> lines;
+  alignas(32) int valid[internal::kPacket] = {};
+  RTCRay8 rays;
+  for (int r = 0; r < count; ++r) {
+    const Point &a = segments[r].a, &b = segments[r].b;
+    lines[r] = Line(a, b, scene.bounds());
+    doubtful[r].clear();
+    const FloatRay one = float_ray(a, b, 0, 1);
+    assert(one.where == FloatRay::Inside);
+    valid[r] = -1;
+    rays.org_x[r] = one.ray.org_x;
+    rays.org_y[r] = one.ray.org_y;
+    rays.org_z[r] = one.ray.org_z;
+    rays.dir_x[r] = one.ray.dir_x;
+    rays.dir_y[r] = one.ray.dir_y;
+    rays.dir_z[r] = one.ray.dir_z;
+    rays.tnear[r] = one.ray.tnear;
+    rays.tfar[r] = one.ray.tfar;
+    rays.time[r] = one.ray.time;
+    rays.mask[r] = one.ray.mask;
+    rays.id[r] = static_cast<unsigned>(r);
+    rays.flags[r] = one.ray.flags;
+  }
+  Query query;
+  rtcInitIntersectContext(&query.context);
+  query.lines = lines.data();
+  query.items = items.data();
+  query.faces = doubtful.data();
+  query.ends = segments.data();
+  rtcOccluded8(valid, boxes, &query.context, &rays);
+  for (int r = 0; r < count; ++r) {
+    answers[r] = rays.tfar[r] < 0      ? internal::Certainty::Blocked
+                 : doubtful[r].empty() ? internal::Certainty::Free
+                                       : internal::Certainty::Doubtful;
+  }
 }
 
 // Faces that the part [t0, t1] of the line perhaps meets, ascending.
@@ -488,7 +542,7 @@ std::vector<int> OcclusionIndex::Impl::faces_near(const Point& a, const Point& b
   std::vector<int> out;
   Query query;
   rtcInitIntersectContext(&query.context);
-  query.line = &line;
+  query.lines = &line;
   query.items = items.data();
   query.whole_line = true;
   query.faces = &out;
@@ -515,7 +569,7 @@ double OcclusionIndex::Impl::nearest(const Point& a, const Point& b, int beyond)
   query.t = kInfinity;
   if (r.where == FloatRay::Inside) {
     rtcInitIntersectContext(&query.context);
-    query.line = &line;
+    query.lines = &line;
     query.items = items.data();
     query.beyond = beyond;
     query.t0 = r.t0;
@@ -533,6 +587,7 @@ OcclusionIndex::OcclusionIndex(const Scene& scene)
     : impl_(std::make_unique<Impl>(scene)) {}
 OcclusionIndex::~OcclusionIndex() = default;
 OcclusionIndex::OcclusionIndex(OcclusionIndex&&) noexcept = default;
+const Scene& OcclusionIndex::scene() const { return impl_->scene; }
 
 namespace {
 
@@ -557,12 +612,24 @@ bool OcclusionIndex::is_free(const Point& a, const Point& b) const {
   if (a == b) return true;
   std::vector<int> doubtful;
   if (const auto certain = impl_->is_free_for_certain(a, b, doubtful)) return *certain;
-  const LineScan scan(impl_->scene, unique_sorted(std::move(doubtful)), a, b);
+  return internal::OcclusionAccess::is_free_of(scene(), std::move(doubtful), a, b);
+}
+
+bool internal::OcclusionAccess::is_free_of(const Scene& scene, std::vector<int> faces,
+                                           const Point& a, const Point& b) {
+  const LineScan scan(scene, unique_sorted(std::move(faces)), a, b);
   for (int c = 0; c < scan.size(); ++c) {
     if (scan.to(c) <= 0 || scan.from(c) >= 1) continue;
     if (scan.blocked_between(c, 0, 1)) return false;
   }
   return true;
+}
+
+void internal::OcclusionAccess::ask_packet(const OcclusionIndex& index,
+                                           std::span<const FaceSegment> segments,
+                                           std::span<Certainty> answers,
+                                           std::span<std::vector<int>> doubtful) {
+  index.impl_->ask_packet(segments, answers, doubtful);
 }
 
 std::vector<Contact> OcclusionIndex::contacts(const Point& a, const Point& b) const {

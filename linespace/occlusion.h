@@ -18,6 +18,10 @@
 
 namespace sightline {
 
+namespace internal {
+struct OcclusionAccess;
+}
+
 /// How a line meets a face at a contact.
 enum class TouchKind : std::uint8_t {
   Interior,  ///< crosses the face's relative interior at a point
@@ -63,6 +67,8 @@ class OcclusionIndex {
   ~OcclusionIndex();
   OcclusionIndex(OcclusionIndex&&) noexcept;
 
+  [[nodiscard]] const Scene& scene() const;
+
   /// No contact inside the open segment ab blocks.  Contacts at a and b themselves do not
   /// count; a contact that contains a or b and extends into the segment is judged by
   /// its part inside the open segment together with what surrounds that part.
@@ -86,6 +92,7 @@ class OcclusionIndex {
                                                         const Point& c) const;
 
  private:
+  friend struct internal::OcclusionAccess;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
