@@ -109,7 +109,11 @@ std::vector<Polygon> parts_of(const Polygon& polygon, const Plane& other,
   const auto add = [](std::vector<Polygon>& to, Polygon p) {
     if (!p.empty()) to.push_back(std::move(p));
   };
-  for (const int side : {-1, 1}) add(parts, clipped(polygon, other, side));
+  if (beyond(other, 1, polygon, false)) {
+    parts.push_back(polygon);
+  } else {
+    for (const int side : {-1, 1}) add(parts, clipped(polygon, other, side));
+  }
   const Plane own = plane_of(polygon);
   for (const Polygon& occluder : occluders) {
     const Plane plane = plane_of(occluder);
@@ -519,6 +523,7 @@ class Search {
   struct Edge {
     Vec3 p, q;
     Function side;
+    int polygon;  // the number of its first edge
   };
   struct Range {
     int begin, end;  // of edges_
@@ -534,7 +539,7 @@ class Search {
     const int begin = static_cast<int>(edges_.size());
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
-      edges_.push_back({p, q, function_of(side_of(p, q))});
+      edges_.push_back({p, q, function_of(side_of(p, q)), begin});
     }
     return {begin, static_cast<int>(edges_.size())};
   }
@@ -578,6 +583,11 @@ class Search {
   }
 
   NaiveAnswer try_quadruple(const std::array<int, 4>& q) {
+    // Three edges of one polygon: only pencils in its plane.
+    if (edges_[q[0]].polygon == edges_[q[2]].polygon ||
+        edges_[q[1]].polygon == edges_[q[3]].polygon) {
+      return NaiveAnswer::Hidden;
+    }
     ++result_.quadruples;
     std::array<Six<Interval>, 4> intervals;
     for (int i = 0; i < 4; ++i) intervals[i] = edges_[q[i]].side.interval;
@@ -711,6 +721,135 @@ class Search {
   std::vector<Blocker> blockers_;
 };
 
+// ---- The decision in a plane ----------------------------------------------------------
+
+/// What an occluder leaves in the plane: itself, two ends, or nothing that matters.
+Polygon trace_of(const Polygon& occluder, const Plane& plane) {
+  if (beyond(plane, 1, occluder, false) && beyond(plane, -1, occluder, false)) {
+    return occluder;
+  }
+  Polygon ends;
+  for (std::size_t i = 0; i < occluder.size(); ++i) {
+    const Vec3& p = occluder[i];
+    const Vec3& q = occluder[(i + 1) % occluder.size()];
+    const Rational at_p = plane.at(p), at_q = plane.at(q);
+    if (at_p == 0) ends.push_back(p);
+    if (at_p.sign() * at_q.sign() < 0) {
+      ends.push_back(p + Rational(at_p / (at_p - at_q)) * (q - p));
+    }
+  }
+  return ends.size() == 2 ? ends : Polygon{};
+}
+
+/// a and b are parts of one plane that no blocker meets but in their boundaries.
+class PlanarSearch {
+ public:
+  PlanarSearch(const ExactInstance& original, const Polygon& a, const Polygon& b,
+               const std::vector<Polygon>& blockers, Random& random,
+               NaiveVisibility& result)
+      : original_(original),
+        normal_(normal_of(a)),
+        whole_a_(a),
+        whole_b_(b),
+        a_(moved(a, -1, random)),
+        b_(moved(b, -1, random)),
+        random_(random),
+        result_(result) {
+    for (const Polygon& o : blockers) blockers_.push_back(moved(o, 1, random));
+  }
+
+  NaiveAnswer run() {
+    Polygon common = whole_a_;
+    for (std::size_t i = 0; i < whole_b_.size() && !common.empty(); ++i) {
+      common = clipped(common, fence(whole_b_, normal_of(whole_b_), i), 1);
+    }
+    if (!common.empty()) {
+      const Vec3 middle = middle_of(common);
+      return tried(middle, Rational(1, 2) * (middle + common[0]));
+    }
+    Polygon points = a_;
+    points.insert(points.end(), b_.begin(), b_.end());
+    for (const Polygon& o : blockers_) points.insert(points.end(), o.begin(), o.end());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (points[i] == points[j]) continue;
+        const NaiveAnswer answer = try_line(points[j], points[i]);
+        if (answer != NaiveAnswer::Hidden) return answer;
+      }
+    }
+    return NaiveAnswer::Hidden;
+  }
+
+ private:
+  static Vec3 middle_of(const Polygon& polygon) {
+    Vec3 sum{0, 0, 0};
+    for (const Vec3& x : polygon) sum = sum + x;
+    return Rational(1, static_cast<int>(polygon.size())) * sum;
+  }
+
+  NaiveAnswer tried(const Vec3& p, const Vec3& q) {
+    if (!original_.is_free(p, q)) return NaiveAnswer::Undecided;
+    result_.witness = {p, q};
+    return NaiveAnswer::Visible;
+  }
+
+  /// The middle of what of the polygon (or segment) is on the line; crossed: the line
+  /// has some of it on either side.
+  struct Meeting {
+    Vec3 middle;
+    bool crossed;
+  };
+  std::optional<Meeting> meeting(const Plane& line, const Polygon& polygon) const {
+    Polygon on_line;
+    bool left = false, right = false;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec3& p = polygon[i];
+      const Vec3& q = polygon[(i + 1) % polygon.size()];
+      const Rational at_p = line.at(p), at_q = line.at(q);
+      left |= at_p > 0;
+      right |= at_p < 0;
+      if (at_p == 0) on_line.push_back(p);
+      if (at_p.sign() * at_q.sign() < 0) {
+        on_line.push_back(p + Rational(at_p / (at_p - at_q)) * (q - p));
+      }
+    }
+    if (on_line.empty()) return std::nullopt;
+    return Meeting{middle_of(on_line), left && right};
+  }
+
+  NaiveAnswer try_line(const Vec3& x, const Vec3& y) {
+    const Vec3 across = cross(normal_, y - x);
+    const Plane line{across, dot(across, x)};
+    const auto at_a = meeting(line, a_), at_b = meeting(line, b_);
+    if (!at_a || !at_b) return NaiveAnswer::Hidden;
+    for (const Polygon& o : blockers_) {
+      const auto at_o = meeting(line, o);
+      if (at_o && at_o->crossed &&
+          dot(at_o->middle - at_a->middle, at_o->middle - at_b->middle) < 0) {
+        return NaiveAnswer::Hidden;
+      }
+    }
+    // Along a trace, the line must be tilted.
+    NaiveAnswer answer = tried(at_a->middle, at_b->middle);
+    for (int i = 0; i < 64 && answer == NaiveAnswer::Undecided; ++i) {
+      const auto shift = [&] {
+        return Rational(random_.integer(-(1 << 20), 1 << 20)) /
+               Rational(Integer(1) << 200);
+      };
+      answer = tried(at_a->middle + shift() * across, at_b->middle + shift() * across);
+    }
+    return answer;
+  }
+
+  const ExactInstance& original_;
+  Vec3 normal_;
+  const Polygon &whole_a_, &whole_b_;
+  Polygon a_, b_;
+  std::vector<Polygon> blockers_;
+  Random& random_;
+  NaiveVisibility& result_;
+};
+
 }  // namespace
 
 bool is_free(const VisibilityInstance& instance, const Vec3& p, const Vec3& q) {
@@ -734,20 +873,24 @@ NaiveVisibility naive_visibility(const VisibilityInstance& instance) {
     result.answer = NaiveAnswer::Visible;
     return result;
   }
-  const Plane a_plane = plane_of(a), b_plane = plane_of(b);
-  if (beyond(a_plane, 1, b, false) && beyond(a_plane, -1, b, false)) {
-    result.answer = NaiveAnswer::Undecided;
-    return result;
-  }
   std::vector<Polygon> occluders;  // those without area block only a null set
   for (const auto& points : instance.occluders) {
     Polygon o = simplified(points);
     if (!o.empty()) occluders.push_back(std::move(o));
   }
+  const Plane a_plane = plane_of(a), b_plane = plane_of(b);
+  const bool planar = beyond(a_plane, 1, b, false) && beyond(a_plane, -1, b, false);
+  std::vector<Polygon> traces;
+  for (const Polygon& o : occluders) {
+    Polygon trace = trace_of(o, a_plane);
+    if (!trace.empty()) traces.push_back(std::move(trace));
+  }
+  const std::vector<Polygon> b_parts = parts_of(b, a_plane, occluders);
   for (const Polygon& a_part : parts_of(a, b_plane, occluders)) {
-    for (const Polygon& b_part : parts_of(b, a_plane, occluders)) {
+    for (const Polygon& b_part : b_parts) {
       const NaiveAnswer answer =
-          Search(original, a_part, b_part, occluders, random, result).run();
+          planar ? PlanarSearch(original, a_part, b_part, traces, random, result).run()
+                 : Search(original, a_part, b_part, occluders, random, result).run();
       if (answer == NaiveAnswer::Visible) {
         result.answer = answer;
         return result;
