@@ -392,7 +392,7 @@ std::vector<SurdLine> transversals(const std::array<Six<Integer>, 4>& rows) {
   return result;
 }
 
-/// The same in intervals; nullopt when unsure of their number.
+/// The same in intervals; nullopt when the lines may be infinitely many.
 std::optional<std::vector<Six<Interval>>> transversals(
     const std::array<Six<Interval>, 4>& rows) {
   const auto kernel = kernel_of(rows);
@@ -400,13 +400,15 @@ std::optional<std::vector<Six<Interval>>> transversals(
   Six<Interval> u = kernel->u, v = kernel->v;
   const auto certain = [](const Interval& x) { return std::max(x.inf(), -x.sup()); };
   if (certain(klein(v)) < certain(klein(u))) std::swap(u, v);
+  if (certain(klein(v)) <= 0) {
+    for (int i = 0; i < 6; ++i) v[i] += u[i];
+  }
   const Interval uu = klein(u), vv = klein(v), uv = klein(u, v);
   if (certain(vv) <= 0) return std::nullopt;
   const Interval d = uv * uv - Interval(4) * uu * vv;
   if (d.sup() < 0) return std::vector<Six<Interval>>{};
-  if (d.inf() <= 0) return std::nullopt;
-  std::vector<Six<Interval>> result(2);
-  const Interval root = CGAL::sqrt(d);
+  std::vector<Six<Interval>> result(2);  // which the true ones, if any, are in
+  const Interval root = CGAL::sqrt(Interval(std::max(0.0, d.inf()), d.sup()));
   for (int i = 0; i < 6; ++i) {
     const Interval plain = Interval(2) * vv * u[i] - uv * v[i];
     result[0][i] = plain + root * v[i];

@@ -53,7 +53,7 @@ TEST(VisibilityCases, ALensHangsBetweenTwoTransversalsOfItsEdges) {
 // The answer does not depend on how the question is asked.
 TEST(VisibilityCases, GridInstancesTransformed) {
   int hidden = 0, visible = 0;
-  for (int seed = 0; seed < 200; ++seed) {
+  for (int seed = 0; seed < 120; ++seed) {
     const VisibilityInstance instance = grid_instance(seed, 1 + seed % 3, 3);
     const NaiveAnswer answer = naive_visibility(instance).answer;
     EXPECT_NE(answer, NaiveAnswer::Undecided) << seed;
@@ -65,8 +65,8 @@ TEST(VisibilityCases, GridInstancesTransformed) {
       ++visible;
     }
   }
-  EXPECT_GT(hidden, 20);
-  EXPECT_GT(visible, 20);
+  EXPECT_GT(hidden, 12);
+  EXPECT_GT(visible, 12);
 }
 
 TEST(VisibilityCases, SlabInstancesHaveTheSizeAsked) {
