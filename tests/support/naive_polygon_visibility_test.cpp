@@ -139,6 +139,21 @@ TEST(NaiveVisibility, PolygonsThatCrossOrTouchEachOthersPlanes) {
   EXPECT_EQ(answer({a, corner, {bisector}}), NaiveAnswer::Hidden);
 }
 
+TEST(NaiveVisibility, OnlyWhatIsBetweenBlocks) {
+  const Corners a = square(0, 0, 0, 4, 4), b = square(2, 0, 0, 4, 4);
+  const Corners left = square(1, -1, -1, 2, 5);
+  const Corners right = square(1, 2 + 0x1p-40, -1, 5, 5);
+  // z = (x - 5) / 8: from beside a, above its plane, to below all of it; every line
+  // through the slit meets it there.  And likewise above b.
+  const Corners under_a = {
+      {6, -99, 0.125}, {6, 99, 0.125}, {-59, 99, -8}, {-59, -99, -8}};
+  const Corners above_b = {
+      {6, -99, 1.875}, {6, 99, 1.875}, {-59, 99, 10}, {-59, -99, 10}};
+  EXPECT_EQ(answer({a, b, {left, right, under_a, above_b}}), NaiveAnswer::Visible);
+  const Corners over_a = {{6, -99, 0.125}, {6, 99, 0.125}, {-59, 99, 8}, {-59, -99, 8}};
+  EXPECT_EQ(answer({a, b, {left, right, over_a}}), NaiveAnswer::Hidden);
+}
+
 TEST(NaiveVisibility, InOnePlane) {
   const Corners a = square(0, 0, 0, 4, 4), b = square(0, 6, 0, 10, 4);
   const auto wall = [](double y0, double y1, double z0 = -1) {
