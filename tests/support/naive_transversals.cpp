@@ -178,12 +178,12 @@ struct Component {
   std::vector<Line> candidates;
   /// Whether a member of T(Q) lies in this component and is not isolated there.
   std::function<bool(const Line&)> in_family = [](const Line&) { return false; };
-  std::optional<Family> family;
+  std::optional<NaiveFamily> family;
 };
 
 /// A one-parameter family: line(t) for t in [-inf, inf], which stand for the same line.
 /// Critical are all t at which the line passes an end of a segment.
-Component curve(FamilyKind kind, std::span<const ExactSegment> q,
+Component curve(NaiveFamilyKind kind, std::span<const ExactSegment> q,
                 std::vector<Rational> critical,
                 const std::function<Line(const Rational&)>& line_at,
                 const Line& at_infinity,
@@ -201,7 +201,7 @@ Component curve(FamilyKind kind, std::span<const ExactSegment> q,
   gap.push_back(member(critical.back() + 1));
   Component result;
   const bool any = std::ranges::find(gap, true) != gap.end();
-  if (any) result.family = Family{1, kind};
+  if (any) result.family = NaiveFamily{1, kind};
   for (std::size_t i = 0; i < critical.size(); ++i) {
     if (!gap[i] && !gap[i + 1] && member(critical[i])) {
       result.candidates.push_back(line_at(critical[i]));
@@ -239,7 +239,7 @@ Component pencil(const Line& u, const Line& v, std::span<const ExactSegment> q) 
     }
   }
   return curve(
-      FamilyKind::Pencil, q, critical,
+      NaiveFamilyKind::Pencil, q, critical,
       [=](const Rational& t) { return combination(1, u, t, v); }, v,
       [=](const Line& l) -> std::optional<Rational> {
         // u + t v proportional to l: all two-by-two determinants with l vanish.
@@ -289,7 +289,7 @@ Component regulus(const ExactSegment& a, const Line& b, const Line& c,
   // The ruling for t = infinity does not meet the segment a; any line at infinity will
   // do.
   const Line none{{0, 0, 0}, {1, 0, 0}};
-  return curve(FamilyKind::Regulus, q, critical, line_at, none,
+  return curve(NaiveFamilyKind::Regulus, q, critical, line_at, none,
                [=](const Line& l) -> std::optional<Rational> {
                  const Vec3 x = cross(a.a, l.d) - l.m, y = cross(la.d, l.d);
                  const auto t = common_zero(x, y);
@@ -308,7 +308,7 @@ Component star(const Homogeneous& p, std::span<const ExactSegment> q) {
     return sgn(dot(u, v)) <= 0;
   };
   if (std::ranges::all_of(q, has_x)) {
-    result.family = Family{2, FamilyKind::Star};
+    result.family = NaiveFamily{2, NaiveFamilyKind::Star};
     result.in_family = [=](const Line& l) { return is_zero(off_line(x, l)); };
     return result;
   }
@@ -381,7 +381,7 @@ Component in_plane(const PlaneOf& plane, std::span<const ExactSegment> q) {
       if (here == 0) result.candidates.push_back(l);
     }
   }
-  if (dimension > 0) result.family = Family{dimension, FamilyKind::Plane};
+  if (dimension > 0) result.family = NaiveFamily{dimension, NaiveFamilyKind::Plane};
   const std::vector<ExactSegment> copy(q.begin(), q.end());
   result.in_family = [=](const Line& l) {
     // The point (d x m) / dd of the line l is in the plane.
@@ -419,7 +419,7 @@ Component congruence(const Line& a, const Line& b, std::span<const ExactSegment>
   if (dimension == 0) {
     result.candidates.push_back(line_of({on_a->a, on_b->a}));
   } else {
-    result.family = Family{dimension, FamilyKind::Congruence};
+    result.family = NaiveFamily{dimension, NaiveFamilyKind::Congruence};
   }
   return result;
 }
@@ -430,9 +430,9 @@ Component complex(const Line& a, std::span<const ExactSegment> q) {
   if (!piece) {
     result.candidates.push_back(a);
   } else if (piece->a == piece->b) {
-    result.family = Family{2, FamilyKind::Star};
+    result.family = NaiveFamily{2, NaiveFamilyKind::Star};
   } else {
-    result.family = Family{3, FamilyKind::Complex};
+    result.family = NaiveFamily{3, NaiveFamilyKind::Complex};
   }
   return result;
 }

@@ -46,7 +46,7 @@ using CanonicalLine = std::array<QuadraticNumber, 6>;
 
 [[nodiscard]] bool meets(const CanonicalLine& line, const ExactSegment& s);
 
-enum class FamilyKind {
+enum class NaiveFamilyKind {
   Pencil,      ///< through a point (or parallel) and in a plane
   Regulus,     ///< rulings of a quadric of one sheet
   Star,        ///< through a point
@@ -55,18 +55,18 @@ enum class FamilyKind {
   Complex      ///< meeting a common piece of the one line on which all segments lie
 };
 
-struct Family {
+struct NaiveFamily {
   /// Of the part that meets the segments: a Plane's may be 1 or 2, a Congruence's, too.
   int dimension;
-  FamilyKind kind;
-  friend auto operator<=>(const Family&, const Family&) = default;
+  NaiveFamilyKind kind;
+  friend auto operator<=>(const NaiveFamily&, const NaiveFamily&) = default;
 };
 
 struct QuadrupleTransversals {
   std::set<CanonicalLine> isolated;
   /// Each kind once, of the largest dimension in which it occurs; where one family is
   /// part of another (a pencil of a plane), both may be listed.
-  std::set<Family> families;
+  std::set<NaiveFamily> families;
 };
 
 /// T(Q), for two to four segments.  Cost: about 50 us.
@@ -81,7 +81,7 @@ struct NaiveLine {
 struct NaiveTransversals {
   std::vector<NaiveLine> lines;
   /// Families of all quadruples, each (dimension, kind) once.
-  std::set<Family> families;
+  std::set<NaiveFamily> families;
 };
 
 /// Cost: n^4 / 24 quadruples; 30 segments take a few seconds.

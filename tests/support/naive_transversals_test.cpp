@@ -13,7 +13,7 @@ ExactSegment segment(std::array<int, 3> a, std::array<int, 3> b) {
   return {{a[0], a[1], a[2]}, {b[0], b[1], b[2]}};
 }
 using Segments = std::vector<ExactSegment>;
-using Families = std::set<Family>;
+using Families = std::set<NaiveFamily>;
 
 // Examples of CGAL's (never released) package on lines through segments, Fogel et al.
 TEST(NaiveTransversals, PublishedQuadruples) {
@@ -30,7 +30,7 @@ TEST(NaiveTransversals, PublishedQuadruples) {
       segment({-1, 0, 0}, {1, 0, 0}), segment({0, -1, 0}, {0, 1, 0}),
       segment({0, 0, -1}, {0, 0, 1}), segment({-1, -2, -3}, {1, 2, 3})};
   EXPECT_TRUE(naive_quadruple(concurrent).isolated.empty());
-  EXPECT_EQ(naive_quadruple(concurrent).families, (Families{{2, FamilyKind::Star}}));
+  EXPECT_EQ(naive_quadruple(concurrent).families, (Families{{2, NaiveFamilyKind::Star}}));
 }
 
 // Every segment of one grid, and of another one behind it, meets two of the other
@@ -75,7 +75,7 @@ TEST(NaiveTransversals, SegmentsOnARegulus) {
   EXPECT_TRUE(naive_quadruple(apart).families.empty());
   const Segments common = {ruling(0, -1, 3), ruling(1, 0, 4), ruling(2, -2, 5),
                            ruling(3, 2, 5)};
-  EXPECT_EQ(naive_quadruple(common).families, (Families{{1, FamilyKind::Regulus}}));
+  EXPECT_EQ(naive_quadruple(common).families, (Families{{1, NaiveFamilyKind::Regulus}}));
   EXPECT_TRUE(naive_quadruple(common).isolated.empty());
   const Segments touching = {ruling(0, -1, 2), ruling(1, 0, 4), ruling(2, -2, 5),
                              ruling(3, 2, 5)};
@@ -93,7 +93,7 @@ TEST(NaiveTransversals, CoplanarSegments) {
   };
   const Segments parallel = {flat(0, -1, 0, 1), flat(1, -1, 1, 1), flat(2, -1, 2, 1),
                              flat(3, -1, 3, 1)};
-  EXPECT_EQ(naive_quadruple(parallel).families, (Families{{2, FamilyKind::Plane}}));
+  EXPECT_EQ(naive_quadruple(parallel).families, (Families{{2, NaiveFamilyKind::Plane}}));
   EXPECT_TRUE(naive_quadruple(parallel).isolated.empty());
   // Above, below, above the x axis, which alone passes.
   const Segments only_axis = {flat(0, 0, 0, 1), flat(1, -1, 1, 0), flat(2, 0, 2, 1),
@@ -103,7 +103,7 @@ TEST(NaiveTransversals, CoplanarSegments) {
   // Two meet at an end, one above the other, and the line must pass there.
   const Segments hinge = {flat(0, 0, 0, 1), flat(0, -1, 0, 0), flat(2, -1, 2, 1),
                           flat(3, -3, 3, 3)};
-  EXPECT_EQ(naive_quadruple(hinge).families, (Families{{1, FamilyKind::Plane}}));
+  EXPECT_EQ(naive_quadruple(hinge).families, (Families{{1, NaiveFamilyKind::Plane}}));
 }
 
 TEST(NaiveTransversals, SegmentsOfOneLine) {
@@ -111,9 +111,9 @@ TEST(NaiveTransversals, SegmentsOfOneLine) {
   const Segments apart = {piece(0, 2), piece(1, 3), piece(2, 4), piece(5, 6)};
   EXPECT_EQ(naive_quadruple(apart).isolated.size(), 1u);
   const Segments point = {piece(0, 2), piece(1, 3), piece(2, 4), piece(-7, 6)};
-  EXPECT_EQ(naive_quadruple(point).families, (Families{{2, FamilyKind::Star}}));
+  EXPECT_EQ(naive_quadruple(point).families, (Families{{2, NaiveFamilyKind::Star}}));
   const Segments overlap = {piece(0, 3), piece(1, 3), piece(2, 4), piece(-7, 6)};
-  EXPECT_EQ(naive_quadruple(overlap).families, (Families{{3, FamilyKind::Complex}}));
+  EXPECT_EQ(naive_quadruple(overlap).families, (Families{{3, NaiveFamilyKind::Complex}}));
 }
 
 TEST(NaiveTransversals, TwoPencils) {
@@ -122,9 +122,9 @@ TEST(NaiveTransversals, TwoPencils) {
     return Segments{segment({-1, 0, 0}, {1, 0, 0}), segment({0, -1, 0}, {0, 1, 0}),
                     segment({5, 5, -9}, {5, 5, to}), segment({5, 5, from}, {5, 5, 9})};
   };
-  EXPECT_EQ(naive_quadruple(q(-2, 3)).families, (Families{{1, FamilyKind::Pencil}}));
+  EXPECT_EQ(naive_quadruple(q(-2, 3)).families, (Families{{1, NaiveFamilyKind::Pencil}}));
   // The lines through the origin and (5, 5, z), 1 <= z <= 3: none are in the plane.
-  EXPECT_EQ(naive_quadruple(q(1, 3)).families, (Families{{1, FamilyKind::Pencil}}));
+  EXPECT_EQ(naive_quadruple(q(1, 3)).families, (Families{{1, NaiveFamilyKind::Pencil}}));
   EXPECT_TRUE(naive_quadruple(q(3, 1)).families.empty());
   EXPECT_TRUE(naive_quadruple(q(3, 1)).isolated.empty());
   EXPECT_EQ(naive_quadruple(q(3, 3)).isolated.size(), 1u);
