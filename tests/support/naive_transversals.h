@@ -50,7 +50,7 @@ enum class NaiveFamilyKind {
   Pencil,      ///< through a point (or parallel) and in a plane
   Regulus,     ///< rulings of a quadric of one sheet
   Star,        ///< through a point
-  Plane,       ///< in a plane
+  Plane,       ///< in a plane that holds all segments
   Congruence,  ///< meeting pieces of two skew lines on which all segments lie
   Complex      ///< meeting a common piece of the one line on which all segments lie
 };
@@ -64,8 +64,9 @@ struct NaiveFamily {
 
 struct QuadrupleTransversals {
   std::set<CanonicalLine> isolated;
-  /// Each kind once, of the largest dimension in which it occurs; where one family is
-  /// part of another (a pencil of a plane), both may be listed.
+  /// Kinds that occur, not connected components: each once, of the largest dimension in
+  /// which it occurs.  Where one family is part of another, or joined to it, both may be
+  /// listed; a Plane's of dimension 1 is a pencil.
   std::set<NaiveFamily> families;
 };
 
