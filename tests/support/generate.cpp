@@ -1,6 +1,8 @@
-// sightline_generate: writes one of the test scenes as an OBJ file.
+// sightline_generate: writes one of the test scenes as an OBJ file, or instances for
+// `sightline visible` as a JSON file.
 //
 //   sightline_generate city --polygons 10000 --seed 1 -o city.obj
+//   sightline_generate visible:slab --count 100 --occluders 100 --size 0.4 -o slab.json
 
 #include <cstdio>
 #include <cstdlib>
@@ -10,16 +12,21 @@
 #include <string>
 
 #include "tests/support/generators.h"
+#include "tests/support/visibility_cases.h"
 
 namespace {
 
 using namespace sightline::testing;
 
 constexpr const char* kUsage =
-    "usage: sightline_generate KIND [--polygons N | --count K] [--seed S] -o FILE.obj\n"
+    "usage: sightline_generate KIND [--polygons N | --count K] [--seed S] -o FILE\n"
     "  city, grid-city, touching-city   N polygons (default 1000)\n"
     "  polytopes [--vertices V] [--density D], parallelepipeds,\n"
     "  boxes, grid-boxes, rotated-boxes K solids (default 10)\n"
+    "  visible:slab [--size S],\n"
+    "  visible:grid                     K instances with --occluders N (default 10), "
+    "JSON\n"
+    "  visible:known                    instances with their answers, JSON\n"
     "  touching:NAME                    boxes that touch, NAME one of:\n";
 
 sightline::PolygonSoup generate(const std::string& kind, std::uint64_t seed, int polygons,
@@ -46,15 +53,32 @@ sightline::PolygonSoup generate(const std::string& kind, std::uint64_t seed, int
   throw std::invalid_argument("no such kind: " + kind);
 }
 
+/// Instance i has seed + i.
+std::vector<VisibilityCase> visibility_cases(const std::string& kind, std::uint64_t seed,
+                                             int count, int occluders, double size) {
+  if (kind == "visible:known") return known_visibility_cases();
+  std::vector<VisibilityCase> cases;
+  for (int i = 0; i < count; ++i) {
+    const std::string name = kind + " " + std::to_string(seed + i);
+    if (kind == "visible:slab") {
+      cases.push_back({name, slab_instance(seed + i, occluders, size), std::nullopt});
+    } else if (kind == "visible:grid") {
+      cases.push_back({name, grid_instance(seed + i, occluders, 3), std::nullopt});
+    } else {
+      throw std::invalid_argument("no such kind: " + kind);
+    }
+  }
+  return cases;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   std::string kind, output;
-  std::map<std::string, std::string> options = {{"--polygons", "1000"},
-                                                {"--count", "10"},
-                                                {"--seed", "1"},
-                                                {"--vertices", "8"},
-                                                {"--density", "0.1"}};
+  std::map<std::string, std::string> options = {
+      {"--polygons", "1000"}, {"--count", "10"},    {"--seed", "1"},
+      {"--vertices", "8"},    {"--density", "0.1"}, {"--occluders", "10"},
+      {"--size", "0.25"}};
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "-o" && i + 1 < argc) {
@@ -75,11 +99,17 @@ int main(int argc, char** argv) {
     return 2;
   }
   try {
-    write_obj(
-        output,
-        generate(kind, std::stoull(options["--seed"]), std::stoi(options["--polygons"]),
-                 std::stoi(options["--count"]), std::stoi(options["--vertices"]),
-                 std::stod(options["--density"])));
+    const std::uint64_t seed = std::stoull(options["--seed"]);
+    const int count = std::stoi(options["--count"]);
+    if (kind.starts_with("visible:")) {
+      write_visibility_json(
+          output, visibility_cases(kind, seed, count, std::stoi(options["--occluders"]),
+                                   std::stod(options["--size"])));
+    } else {
+      write_obj(output, generate(kind, seed, std::stoi(options["--polygons"]), count,
+                                 std::stoi(options["--vertices"]),
+                                 std::stod(options["--density"])));
+    }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "sightline_generate: %s\n", error.what());
     return 2;
