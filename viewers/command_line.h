@@ -32,7 +32,7 @@ class UsageError : public std::runtime_error {
 using Command = std::function<ExitStatus()>;
 
 struct CommonOptions {
-  std::string scene;
+  std::string scene;  ///< or the question's FILE
   std::string json;  ///< file name, "-" for standard output, empty for none
   std::string vtk;   ///< folder, empty for none
   int threads = 0;
@@ -43,6 +43,8 @@ struct CommonOptions {
 };
 
 void add_scene_argument(CLI::App& app, CommonOptions& options, bool required = true);
+/// FILE, for commands that are asked of a JSON file instead of a scene.
+void add_file_argument(CLI::App& app, CommonOptions& options, const std::string& help);
 void add_common_options(CLI::App& app, CommonOptions& options);
 void add_budget_option(CLI::App& app, double& seconds);
 void add_region_option(CLI::App& app, std::vector<double>& region);
