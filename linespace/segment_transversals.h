@@ -1,0 +1,103 @@
+// All lines that meet four of n segments and lines: isolated ones, each with every
+// element it meets, and families.
+//
+// Definitions.  The elements are closed segments and unbounded lines.  For four elements
+// Q let T(Q) be the set of lines that meet all four (a line through a common point of two
+// of them meets both there).  T(Q) has finitely many connected components: at most 4 for
+// four segments (Broennimann et al. 2005).
+// - A line is *isolated* if it is a component of T(Q) by itself, for some Q.  It is
+//   reported once, with all elements that it meets.
+// - A *family* is a component of T(Q), for some Q, that holds more than one line.  Equal
+//   sets of lines are one family, reported once, with all elements that every line of it
+//   meets.  Its dimension is that of its largest part.
+// A line may be isolated for one Q and lie in a family of another.  For unbounded
+// elements components are told apart projectively, with contacts at infinity counted, so
+// that a family is not cut in two where one of its lines is parallel to an element; but
+// an isolated line must meet its four at finite points. Nothing depends on the order of
+// the elements, on their orientation, or on threads. docs/transversals.md tells how it is
+// found and what it costs.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "linespace/request.h"
+#include "linespace/transversals.h"
+
+namespace sightline {
+
+/// What the lines of a family are, told by its largest parts.
+enum class FamilyKind {
+  // One dimension.
+  Pencil,         ///< lines through a point, in a plane
+  JoinedPencils,  ///< several such, joined by common lines
+  Regulus,        ///< rulings of a hyperboloid or hyperbolic paraboloid
+  // Two dimensions.
+  Star,        ///< all lines through a point
+  Plane,       ///< lines in a plane
+  StarPlane,   ///< all lines through a point, and lines in a plane through it
+  Congruence,  ///< lines that meet a segment on each of two skew lines
+  // Three dimensions.
+  Complex,  ///< all lines that meet a segment (common to elements on one line)
+};
+[[nodiscard]] std::string_view family_name(FamilyKind kind);
+
+struct TransversalFamily {
+  FamilyKind kind;
+  int dimension;
+  std::vector<int> elements;  ///< that all its lines meet, ascending
+  /// One of its lines.
+  ExactLine sample;
+};
+
+/// An isolated line, as found from four of its elements.
+struct IsolatedTransversal {
+  /// Four elements for which it is isolated, ascending.
+  std::array<int, 4> generators;
+  /// Which of the two lines through these four: the one found first (0) or second (1) by
+  /// transversals(generators in order).
+  std::int8_t which;
+  /// Its contacts are SegmentTransversals::contacts[first_contact ... + contact_count).
+  std::int32_t contact_count;
+  std::int64_t first_contact;
+  /// A point on it (the contact with generators[0]) and its direction, rounded, for
+  /// drawing; exact() gives the line itself.
+  Eigen::Vector3d point, direction;
+};
+
+struct SegmentTransversals {
+  std::vector<IsolatedTransversal> lines;
+  /// Elements that the isolated lines meet, ascending for each line.
+  std::vector<std::int32_t> contacts;
+  std::vector<TransversalFamily> families;
+  /// Number of isolated lines; lines.size() unless only counted.
+  std::uint64_t line_count = 0;
+  bool complete = true;
+  StageCounts predicates;
+
+  [[nodiscard]] std::span<const std::int32_t> contacts_of(
+      const IsolatedTransversal& line) const {
+    return {contacts.data() + line.first_contact,
+            static_cast<std::size_t>(line.contact_count)};
+  }
+};
+
+struct TransversalRequest : Request {
+  /// Do not keep the lines, only count them.
+  bool only_count = false;
+};
+
+/// Elements are numbered segments first, then lines.  Requires admissible coordinates and
+/// two different points each; throws InvalidInput that names the element otherwise.
+/// Cost: for segments in general position, time in proportion to the triples plus the
+/// quadruples of which every three can be met; about 50 times more for what is
+/// degenerate.
+[[nodiscard]] SegmentTransversals transversals_of_segments(
+    std::span<const LineThrough> segments, std::span<const LineThrough> lines = {},
+    const TransversalRequest& request = {});
+
+}  // namespace sightline
