@@ -56,16 +56,13 @@ struct TransversalFamily {
 
 /// An isolated line, as found from four of its elements.
 struct IsolatedTransversal {
-  /// Four elements for which it is isolated, ascending.
-  std::array<int, 4> generators;
-  /// Which of the two lines through these four: the one found first (0) or second (1) by
-  /// transversals(generators in order).
-  std::int8_t which;
-  /// Its contacts are SegmentTransversals::contacts[first_contact ... + contact_count).
+  std::array<int, 4> generators;  ///< for which it is isolated, ascending
+  /// Its contacts are SegmentTransversals::contacts from here on.
   std::int32_t contact_count;
   std::int64_t first_contact;
-  /// A point on it (the contact with generators[0]) and its direction, rounded, for
-  /// drawing; exact() gives the line itself.
+  /// In SegmentTransversals::exact_lines; -1 when exact() works it out.
+  int exact;
+  /// A point on it and its direction, rounded, for drawing.
   Eigen::Vector3d point, direction;
 };
 
@@ -78,7 +75,11 @@ struct SegmentTransversals {
   std::uint64_t line_count = 0;
   bool complete = true;
   StageCounts predicates;
+  std::vector<LineThrough> elements;   ///< that were asked for
+  std::vector<ExactLine> exact_lines;  ///< those that doubles could not settle
 
+  /// Line i as an exact value.
+  [[nodiscard]] ExactLine exact(std::size_t i) const;
   [[nodiscard]] std::span<const std::int32_t> contacts_of(
       const IsolatedTransversal& line) const {
     return {contacts.data() + line.first_contact,
