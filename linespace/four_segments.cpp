@@ -213,7 +213,15 @@ class OnSkewPair {
                         -(x[0] * f.f[0][0] + x[1] * f.f[1][0])};
       return line(x, y);
     };
-    add(arcs_of(at, x_breaks_, nullptr, elements_), FamilyKind::Regulus);
+    // End points on m are at no x of their own, only at the curve's.
+    std::vector<Parameter> breaks = x_breaks_;
+    for (std::size_t i = 0; i < breaks.size(); ++i) {
+      const Parameter& y = y_breaks_[i];
+      if (!is_null(breaks[i])) continue;
+      breaks[i] = {y[0] * f.f[1][0] + y[1] * f.f[1][1],
+                   -(y[0] * f.f[0][0] + y[1] * f.f[0][1])};
+    }
+    add(arcs_of(at, breaks, nullptr, elements_), FamilyKind::Regulus);
   }
 
   // f = (a0 x0 + a1 x1)(b0 y0 + b1 y1).
@@ -819,7 +827,7 @@ bool all_meet(const LineArc& arc, const Element& e) {
 FourComponents components_of(const FourElements& elements) {
   FourComponents out = components_of(Elements(elements));
   for (ExactFamily& family : out.families) {
-    for (const Element& e : elements) family.supports.push_back(e.line);
+    family.elements.assign(elements.begin(), elements.end());
   }
   return out;
 }
@@ -857,14 +865,14 @@ bool same_family(const ExactFamily& a, const ExactFamily& b) {
       return false;
     }
   }
-  if (!same_lines(a.corners, b.corners)) return false;
-  if (!a.corners.empty() || !a.points.empty()) return true;
-  // Unbounded elements: whole algebraic families, told apart by a few of their lines.
-  return std::ranges::all_of(a.arcs, [&b](const LineArc& arc) {
-    return std::ranges::all_of(b.supports, [&arc](const LineThrough& l) {
-      return arc[0].side(l) == Sign::Zero && arc[1].side(l) == Sign::Zero;
+  // Different circles of lines can share their ends, and so can two arcs of one circle.
+  const auto within = [](const ExactFamily& x, const ExactFamily& y) {
+    return std::ranges::all_of(x.arcs, [&y](const LineArc& arc) {
+      return std::ranges::all_of(
+          arc, [&y](const ExactLine& l) { return closure_meets(l, y.elements); });
     });
-  });
+  };
+  return same_lines(a.corners, b.corners) && within(a, b) && within(b, a);
 }
 
 }  // namespace sightline::internal

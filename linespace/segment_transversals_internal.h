@@ -36,7 +36,7 @@ struct ExactFamily {
   /// A line of its largest part.
   std::vector<ExactLine> samples;
   /// The four it was found from.
-  std::vector<LineThrough> supports;
+  std::vector<Element> elements;
 };
 
 /// The connected components of T(Q).
