@@ -33,8 +33,8 @@ using Command = std::function<ExitStatus()>;
 
 struct CommonOptions {
   std::string scene;  ///< or the question's FILE
-  std::string json;  ///< file name, "-" for standard output, empty for none
-  std::string vtk;   ///< folder, empty for none
+  std::string json;   ///< file name, "-" for standard output, empty for none
+  std::string vtk;    ///< folder, empty for none
   int threads = 0;
   Precision precision = Precision::Exact;
 
@@ -103,6 +103,7 @@ class Meter {
 Command add_info_command(CLI::App& app);
 Command add_skeleton_command(CLI::App& app);
 Command add_analyse_command(CLI::App& app);
+Command add_transversals_command(CLI::App& app);
 Command add_view_command(CLI::App& app);
 
 }  // namespace sightline::viewers
