@@ -235,16 +235,14 @@ class Search {
       });
     });
     std::vector<Quadruple> unsure;
+    std::size_t kept = 0;
+    for (const Findings& f : found) kept += f.lines.size();
+    out.lines.reserve(kept);
     for (const Findings& f : found) {
       out.line_count += f.count;
       out.lines.insert(out.lines.end(), f.lines.begin(), f.lines.end());
       unsure.insert(unsure.end(), f.unsure.begin(), f.unsure.end());
       add(out.predicates, f.predicates);
-    }
-    for (IsolatedTransversal& line : out.lines) {
-      line.first_contact = static_cast<std::int64_t>(out.contacts.size());
-      out.contacts.insert(out.contacts.end(), line.generators.begin(),
-                          line.generators.end());
     }
     if (request_.precision == Precision::Exact) {
       const StageCounts before = thread_stage_counts();
@@ -360,7 +358,7 @@ class Search {
       case Outcome::Found:
         break;
     }
-    std::array<IsolatedTransversal, 2> lines;
+    std::array<double, 2> others{};
     for (int r = 0; r < count; ++r) {
       const Root v = other_root(forms[q[2]], roots[r]);
       for (const int m : near) {
@@ -369,13 +367,12 @@ class Search {
           return;
         }
       }
-      lines[r] = constructed(q, roots[r].u, v.u);
+      others[r] = v.u;
     }
     ++out.predicates.by_double;
     out.count += static_cast<std::uint64_t>(count);
-    if (!request_.only_count) {
-      out.lines.insert(out.lines.end(), lines.begin(), lines.begin() + count);
-    }
+    if (request_.only_count) return;
+    for (int r = 0; r < count; ++r) out.lines.push_back({q, {roots[r].u, others[r]}, -1});
   }
 
   // Of all common parts of the two curves' intervals, at most two roots in all.
@@ -421,18 +418,6 @@ class Search {
     return outcome;
   }
 
-  IsolatedTransversal constructed(const Quadruple& q, double u, double v) const {
-    IsolatedTransversal out{};
-    out.generators = q;
-    out.contact_count = 4;
-    out.exact = -1;
-    const LineThrough& l = line(q[0]);
-    const LineThrough& m = line(q[1]);
-    out.point = l.from + u * (l.to - l.from);
-    out.direction = m.from + v * (m.to - m.from) - out.point;
-    return out;
-  }
-
   // ---- exact --------------------------------------------------------------------------
 
   // No line through i and j meets k's support, by exact signs of the square's corners.
@@ -463,7 +448,7 @@ class Search {
   }
 
   void resolve(const std::vector<Quadruple>& unsure, SegmentTransversals& out) {
-    std::map<std::vector<std::int32_t>, std::vector<ExactLine>> lines;
+    std::map<std::vector<int>, std::vector<ExactLine>> lines;
     std::vector<ExactFamily> families;
     std::size_t done = 0;
     for (const Quadruple& q : unsure) {
@@ -497,9 +482,9 @@ class Search {
   }
 
   void add_line(const Quadruple& q, const ExactLine& l,
-                std::map<std::vector<std::int32_t>, std::vector<ExactLine>>& lines,
+                std::map<std::vector<int>, std::vector<ExactLine>>& lines,
                 SegmentTransversals& out) const {
-    std::vector<std::int32_t> met;
+    std::vector<int> met;
     for (int m = 0; m < n_; ++m) {
       if (meets(l, elements_[m])) met.push_back(m);
     }
@@ -510,16 +495,8 @@ class Search {
     same.push_back(l);
     ++out.line_count;
     if (request_.only_count) return;
-    IsolatedTransversal found{};
-    found.generators = q;
-    found.contact_count = static_cast<std::int32_t>(met.size());
-    found.first_contact = static_cast<std::int64_t>(out.contacts.size());
-    found.exact = static_cast<int>(out.exact_lines.size());
-    found.point = l.nearest(line(q[0]).from).point;
-    found.direction = l.direction().point;
-    out.contacts.insert(out.contacts.end(), met.begin(), met.end());
-    out.exact_lines.push_back(l);
-    out.lines.push_back(found);
+    out.lines.push_back({q, {}, static_cast<int>(out.exact_lines.size())});
+    out.exact_lines.push_back({l, std::move(met)});
   }
 
   const TransversalRequest& request_;
@@ -574,15 +551,18 @@ std::string_view family_name(FamilyKind kind) {
 // A line found in doubles alone is one of two: the one nearer to where it was found.
 ExactLine SegmentTransversals::exact(std::size_t i) const {
   const IsolatedTransversal& line = lines[i];
-  if (line.exact >= 0) return exact_lines[static_cast<std::size_t>(line.exact)];
+  if (line.exact >= 0) return exact_lines[static_cast<std::size_t>(line.exact)].line;
   const auto& g = line.generators;
   const LineTransversals both =
       transversals(elements[g[0]], elements[g[1]], elements[g[2]], elements[g[3]]);
   const auto distance = [&](const ExactLine& l) {
-    const Eigen::Vector3d a = l.contact(elements[g[0]]).point - line.point;
-    const Eigen::Vector3d b =
-        l.contact(elements[g[1]]).point - (line.point + line.direction);
-    return a.squaredNorm() + b.squaredNorm();
+    double sum = 0;
+    for (int k = 0; k < 2; ++k) {
+      const LineThrough& e = elements[g[k]];
+      const Eigen::Vector3d there = e.from + line.at[k] * (e.to - e.from);
+      sum += (l.contact(e).point - there).squaredNorm();
+    }
+    return sum;
   };
   return *std::ranges::min_element(both.lines, {}, distance);
 }

@@ -54,36 +54,40 @@ struct TransversalFamily {
   ExactLine sample;
 };
 
-/// An isolated line, as found from four of its elements.
+/// An isolated line, as found from four of its elements.  SegmentTransversals tells what
+/// it meets and where it runs.
 struct IsolatedTransversal {
   std::array<int, 4> generators;  ///< for which it is isolated, ascending
-  /// Its contacts are SegmentTransversals::contacts from here on.
-  std::int32_t contact_count;
-  std::int64_t first_contact;
-  /// In SegmentTransversals::exact_lines; -1 when exact() works it out.
+  /// Parameters of its contacts with the first two (0 at `from`, 1 at `to`), rounded;
+  /// when exact < 0.
+  std::array<double, 2> at;
+  /// In SegmentTransversals::exact_lines; -1 for a line that meets just its generators,
+  /// in their interiors, which doubles with bounds could prove.
   int exact;
-  /// A point on it and its direction, rounded, for drawing.
-  Eigen::Vector3d point, direction;
 };
 
 struct SegmentTransversals {
   std::vector<IsolatedTransversal> lines;
-  /// Elements that the isolated lines meet, ascending for each line.
-  std::vector<std::int32_t> contacts;
   std::vector<TransversalFamily> families;
   /// Number of isolated lines; lines.size() unless only counted.
   std::uint64_t line_count = 0;
   bool complete = true;
   StageCounts predicates;
-  std::vector<LineThrough> elements;   ///< that were asked for
-  std::vector<ExactLine> exact_lines;  ///< those that doubles could not settle
+  std::vector<LineThrough> elements;  ///< that were asked for
+
+  struct Settled {
+    ExactLine line;
+    std::vector<int> elements;  ///< that it meets, ascending
+  };
+  std::vector<Settled> exact_lines;  ///< those that doubles could not settle
 
   /// Line i as an exact value.
   [[nodiscard]] ExactLine exact(std::size_t i) const;
-  [[nodiscard]] std::span<const std::int32_t> contacts_of(
-      const IsolatedTransversal& line) const {
-    return {contacts.data() + line.first_contact,
-            static_cast<std::size_t>(line.contact_count)};
+  /// The elements that line i meets, ascending.
+  [[nodiscard]] std::span<const int> contacts_of(std::size_t i) const {
+    const IsolatedTransversal& line = lines[i];
+    if (line.exact < 0) return line.generators;
+    return exact_lines[static_cast<std::size_t>(line.exact)].elements;
   }
 };
 

@@ -62,7 +62,7 @@ std::array<Point, 2> drawn_piece(const SegmentTransversals& found, std::size_t i
                                  const ExactLine& line) {
   const Point direction = line.direction().point;
   std::optional<std::array<Point, 2>> piece;
-  for (const std::int32_t e : found.contacts_of(found.lines[i])) {
+  for (const int e : found.contacts_of(i)) {
     const LineThrough& element = found.elements[static_cast<std::size_t>(e)];
     if (line.is_parallel(element)) continue;
     const Point p = line.contact(element).point;
@@ -98,7 +98,7 @@ Json list_json(const Question& question, const SegmentTransversals& found) {
   Json lines = Json::array();
   for (std::size_t i = 0; i < found.lines.size(); ++i) {
     const ExactLine line = found.exact(i);
-    Json j = elements_json(question, found.contacts_of(found.lines[i]));
+    Json j = elements_json(question, found.contacts_of(i));
     j["line"] = points_json(drawn_piece(found, i, line));
     j["rational"] = line.is_rational();
     lines.push_back(std::move(j));
@@ -130,7 +130,7 @@ void write_pictures(const std::string& folder, const Question& question,
   for (std::size_t i = 0; i < found.lines.size(); ++i) {
     const auto [from, to] = drawn_piece(found, i, found.exact(i));
     transversals.pieces.push_back(
-        {from, to, fmt::format("{}", fmt::join(found.contacts_of(found.lines[i]), " "))});
+        {from, to, fmt::format("{}", fmt::join(found.contacts_of(i), " "))});
   }
   LineBlock families{"family_samples", "degenerate", {}};
   for (const TransversalFamily& f : found.families) {
