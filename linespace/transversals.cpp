@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "linespace/exact_numbers_internal.h"
 #include "linespace/transversals_internal.h"
 
 namespace sightline {
@@ -264,11 +265,206 @@ TransversalClass exact_transversal_class(const FourLines& l) {
   return exact_transversals(l).kind;
 }
 
+// ---- the discriminant in stages
+// ---------------------------------------------------------
+
+namespace {
+
+template <class T>
+using Vector = std::array<T, 3>;
+
+template <class T>
+auto minus(const Vector<T>& p, const Vector<T>& q) {
+  return Vector<T>{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
+}
+template <class T>
+auto cross_product(const Vector<T>& u, const Vector<T>& v) {
+  return std::array{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                    u[0] * v[1] - u[1] * v[0]};
+}
+template <class S, class T>
+auto dot_product(const Vector<S>& u, const Vector<T>& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+
+// a^2 + b^2 + c^2 - 2ab - 2ac - 2bc.
+template <class T>
+auto discriminant(const T& a, const T& b, const T& c) {
+  const T x = a + b - c;
+  const auto ab = a * b;
+  const auto twice = ab + ab;
+  return x * x - (twice + twice);
+}
+
+// The points of four lines over a number type, and what is asked of them.
+template <class T>
+struct Points {
+  Four<Vector<T>> from, to;
+
+  [[nodiscard]] auto side(int i, int j) const {
+    return dot_product(minus(to[j], from[i]),
+                       cross_product(minus(to[i], from[i]), minus(from[j], from[i])));
+  }
+  [[nodiscard]] auto discriminant_value() const {
+    return discriminant(side(0, 1) * side(2, 3), side(0, 2) * side(1, 3),
+                        side(0, 3) * side(1, 2));
+  }
+  [[nodiscard]] auto directions(int i, int j, int k) const {
+    return dot_product(minus(to[i], from[i]),
+                       cross_product(minus(to[j], from[j]), minus(to[k], from[k])));
+  }
+};
+
+constexpr Four<std::array<int, 3>> kTriples{{{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}};
+
+// By the magnitudes of the differences involved: beyond these, twelfth powers could
+// leave the doubles' range.
+constexpr double kLargestReach = 0x1p60;
+constexpr double kSmallestReach = 0x1p-60;
+
+struct DoubleCount {
+  double discriminant, direction;  // the first three directions' determinant
+  double reach;
+};
+
+// With the first line's `from` as origin its moment is 0.
+inline DoubleCount double_count(const FourLines& l) {
+  Four<Vector<double>> p, d, m;
+  double reach = 0;
+  for (int i = 0; i < 4; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      p[i][k] = l[i]->from[k] - l[0]->from[k];
+      d[i][k] = l[i]->to[k] - l[i]->from[k];
+      reach = std::max(reach, std::max(std::abs(p[i][k]), std::abs(d[i][k])));
+    }
+    m[i] = cross_product(p[i], d[i]);
+  }
+  const auto side_of = [&](int i, int j) {
+    return dot_product(d[i], m[j]) + dot_product(d[j], m[i]);
+  };
+  return {discriminant(dot_product(d[0], m[1]) * side_of(2, 3),
+                       dot_product(d[0], m[2]) * side_of(1, 3),
+                       dot_product(d[0], m[3]) * side_of(1, 2)),
+          dot_product(d[0], cross_product(d[1], d[2])), reach};
+}
+
+// Let R be the largest magnitude of a difference that enters, and e = 2^-53.  A side
+// product with the first line is a sum of 6 products of three differences, each of at
+// most 8 roundings: at most 6 R^3, off by 48 e R^3; another has 12 with 9: at most 12
+// R^3, off by 108 e R^3.  So a, b, c are at most 72 R^6 and off by (6 108 + 12 48 + 72) e
+// R^6 = 1296 e R^6; x = a + b - c is at most 216 R^6 and off by (3 1296 + 2 216) e R^6 =
+// 4320 e R^6; and x^2 - 4ab is off by
+//   (2 216 4320 + 216^2 + 4 (2 72 1296 + 72^2) + 216^2 + 4 72^2) e R^12 < 2.8e6 e R^12.
+// 2^22 covers that, the second order, and the rounding of the bound itself.  The
+// directions' determinant is a sum of 6 products of 7 roundings: 42 e R^3.
+constexpr double kDiscriminantBound = 0x1p22 * kUnit;
+constexpr double kDirectionBound = 64 * kUnit;
+
+inline std::optional<TransversalClass> certain_class(const DoubleCount& c) {
+  const double r3 = c.reach * c.reach * c.reach;
+  const double r6 = r3 * r3;
+  if (!(std::abs(c.discriminant) > kDiscriminantBound * (r6 * r6)) ||
+      c.reach > kLargestReach || c.reach < kSmallestReach) {
+    return std::nullopt;
+  }
+  if (c.discriminant < 0) return TransversalClass::None;
+  if (std::abs(c.direction) > kDirectionBound * r3) return TransversalClass::Two;
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<TransversalClass> double_transversal_class(const FourLines& l) {
+  return certain_class(double_count(l));
+}
+
+std::optional<TransversalClass> interval_transversal_class(const FourLines& l) {
+  if (const double reach = double_count(l).reach;
+      reach > kLargestReach || reach < kSmallestReach) {
+    return std::nullopt;
+  }
+  // The differences are exact, so l[0]->from can be the origin of all.
+  const auto difference = [&l](const Eigen::Vector3d& p) {
+    Vector<Ball> out;
+    for (int k = 0; k < 3; ++k) out[k] = exact_difference(p[k], l[0]->from[k]);
+    return out;
+  };
+  Points<Ball> p;
+  for (int i = 0; i < 4; ++i) {
+    p.from[i] = difference(l[i]->from);
+    p.to[i] = difference(l[i]->to);
+  }
+  const auto sign = sign_of(p.discriminant_value());
+  if (!sign) return std::nullopt;
+  if (*sign == Sign::Negative) return TransversalClass::None;
+  for (const auto& [i, j, k] : kTriples) {
+    if (sign_of(p.directions(i, j, k))) return TransversalClass::Two;
+  }
+  return std::nullopt;
+}
+
+// 61 bits a coordinate: a side product has at most 189 bits and a sign, a, b and c 378,
+// their sum 380 of the 384 of six limbs, and the discriminant 762 of 768.
+std::optional<TransversalClass> integer_transversal_class(const FourLines& l) {
+  Points<FixedInt<1>> p;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::array<double, 8> values;
+    std::array<FixedInt<1>, 8> integers;
+    for (int i = 0; i < 4; ++i) {
+      values[2 * i] = l[i]->from[axis];
+      values[2 * i + 1] = l[i]->to[axis];
+    }
+    if (!to_integers<1>(values, integers)) return std::nullopt;
+    for (int i = 0; i < 4; ++i) {
+      p.from[i][axis] = integers[2 * i];
+      p.to[i][axis] = integers[2 * i + 1];
+    }
+  }
+  const Sign sign = sign_of(p.discriminant_value());
+  if (sign == Sign::Zero) return std::nullopt;
+  if (sign == Sign::Negative) return TransversalClass::None;
+  // The line at infinity of the planes parallel to all four meets them, if there are
+  // such.
+  for (const auto& [i, j, k] : kTriples) {
+    if (sign_of(p.directions(i, j, k)) != Sign::Zero) return TransversalClass::Two;
+  }
+  return TransversalClass::OneOtherAtInfinity;
+}
+
+namespace {
+
+TransversalClass decide_transversal_class(const FourLines& l, const DoubleCount& count) {
+  if (thread_precision == Precision::Double) {
+    ++stage_counts.by_double;
+    return count.discriminant < 0   ? TransversalClass::None
+           : count.discriminant > 0 ? TransversalClass::Two
+                                    : TransversalClass::Double;
+  }
+  if (const auto c = integer_transversal_class(l)) {
+    ++stage_counts.by_exact;
+    return *c;
+  }
+  if (const auto c = interval_transversal_class(l)) {
+    ++stage_counts.by_interval;
+    return *c;
+  }
+  ++stage_counts.by_exact;
+  return exact_transversal_class(l);
+}
+
+}  // namespace
 }  // namespace internal
 
 TransversalClass transversal_class(const LineThrough& l0, const LineThrough& l1,
                                    const LineThrough& l2, const LineThrough& l3) {
-  return internal::exact_transversal_class({&l0, &l1, &l2, &l3});
+  using namespace internal;
+  const FourLines l{&l0, &l1, &l2, &l3};
+  const DoubleCount count = double_count(l);
+  if (const auto c = certain_class(count)) {
+    ++stage_counts.by_double;
+    return *c;
+  }
+  return decide_transversal_class(l, count);
 }
 
 LineTransversals transversals(const LineThrough& l0, const LineThrough& l1,

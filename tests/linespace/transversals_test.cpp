@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -237,6 +238,47 @@ TEST(TransversalClasses, AgreeWithTheGramDeterminantInRationals) {
     }
   }
   for (const int n : seen) EXPECT_GT(n, 200);
+}
+
+TEST(TransversalClasses, EveryStageIsRightOrUndecidedAndReached) {
+  using Stage =
+      std::optional<TransversalClass> (*)(const std::array<const LineThrough*, 4>&);
+  const std::array<Stage, 3> stages{internal::double_transversal_class,
+                                    internal::interval_transversal_class,
+                                    internal::integer_transversal_class};
+  std::array<int, 3> decided{}, undecided{};
+  const StageCounts before = thread_stage_counts();
+  for (const Terrain terrain : testing::kTerrains) {
+    RandomGeometry random(17);
+    for (int i = 0; i < 2000; ++i) {
+      const Four l = random_four(random, terrain);
+      const std::array<const LineThrough*, 4> p{&l[0], &l[1], &l[2], &l[3]};
+      const TransversalClass exact = internal::exact_transversal_class(p);
+      ASSERT_EQ(class_of(l), exact);
+      for (int s = 0; s < 3; ++s) {
+        const auto c = stages[s](p);
+        ++(c ? decided : undecided)[s];
+        if (c) {
+          ASSERT_EQ(*c, exact) << s;
+        }
+      }
+    }
+  }
+  for (int s = 0; s < 3; ++s) {
+    EXPECT_GT(decided[s], 1000) << s;
+    EXPECT_GT(undecided[s], 100) << s;
+  }
+  const StageCounts after = thread_stage_counts();
+  EXPECT_GT(after.by_double, before.by_double + 1000);
+  EXPECT_GT(after.by_interval, before.by_interval + 100);
+  EXPECT_GT(after.by_exact, before.by_exact + 1000);
+}
+
+TEST(TransversalClasses, DoublePrecisionTakesTheFirstStagesSign) {
+  const auto ruling = [](double c) { return LineThrough{{c, 0, 0}, {c, 1, c}}; };
+  const PrecisionScope precision(Precision::Double);
+  EXPECT_EQ(transversal_class(ruling(0), ruling(1), ruling(2), {{3, 0, 0}, {4, 1, 3}}),
+            TransversalClass::Double);
 }
 
 TEST(TransversalClasses, DoNotDependOnOrderOrientationAxesOrScale) {
