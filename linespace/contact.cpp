@@ -776,10 +776,6 @@ struct RoundedLine {
 
 }  // namespace
 
-ExactPoint exact_point(const Point& p) {
-  return {Rational(p.x()), Rational(p.y()), Rational(p.z())};
-}
-
 struct LineScan::Impl {
   explicit Impl(const Scene& s) : scene(s) {}
 

@@ -5,23 +5,15 @@
 
 #pragma once
 
-#include <array>
-#include <boost/multiprecision/gmp.hpp>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "linespace/occlusion.h"
+#include "linespace/rational_internal.h"
 
 namespace sightline::internal {
-
-/// Not CGAL::Exact_rational, which is another type where gmpxx is installed.
-using Rational = boost::multiprecision::number<boost::multiprecision::gmp_rational,
-                                               boost::multiprecision::et_off>;
-using ExactPoint = std::array<Rational, 3>;
-
-[[nodiscard]] ExactPoint exact_point(const Point& p);
 
 /// A Contact with its exact ends along the line a + t (b - a).
 struct ExactContact {

@@ -94,9 +94,14 @@ std::size_t peak_memory_bytes() {
 
 Json answer_head(const std::string& command, const Scene& scene, bool complete,
                  const Cost& cost) {
+  return answer_head(command, scene_counts(scene), complete, cost);
+}
+
+Json answer_head(const std::string& command, Json counts, bool complete,
+                 const Cost& cost) {
   return {{"command", command},
           {"version", version()},
-          {"scene", scene_counts(scene)},
+          {"scene", std::move(counts)},
           {"complete", complete},
           {"seconds", cost.seconds},
           {"peak_memory_bytes", peak_memory_bytes()},

@@ -31,6 +31,10 @@ struct Cost {
 /// "predicates".
 [[nodiscard]] Json answer_head(const std::string& command, const Scene& scene,
                                bool complete, const Cost& cost);
+/// The same for a question that has no scene: "scene" holds these counts of its elements,
+/// such as {"segments": 3, "lines": 1}.
+[[nodiscard]] Json answer_head(const std::string& command, Json counts, bool complete,
+                               const Cost& cost);
 
 /// {"file", "vertices", "faces", "edges", "objects", "facets", "solids"}, all counts.
 [[nodiscard]] Json scene_counts(const Scene& scene);

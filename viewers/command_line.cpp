@@ -21,6 +21,10 @@ void add_scene_argument(CLI::App& app, CommonOptions& options, bool required) {
   scene->required(required);
 }
 
+void add_file_argument(CLI::App& app, CommonOptions& options, const std::string& help) {
+  app.add_option("FILE", options.scene, help)->required();
+}
+
 void add_common_options(CLI::App& app, CommonOptions& options) {
   app.add_option("--json", options.json,
                  "write the answer as JSON to FILE; '-' is standard output, and then "

@@ -32,9 +32,9 @@ class UsageError : public std::runtime_error {
 using Command = std::function<ExitStatus()>;
 
 struct CommonOptions {
-  std::string scene;
-  std::string json;  ///< file name, "-" for standard output, empty for none
-  std::string vtk;   ///< folder, empty for none
+  std::string scene;  ///< or the question's FILE
+  std::string json;   ///< file name, "-" for standard output, empty for none
+  std::string vtk;    ///< folder, empty for none
   int threads = 0;
   Precision precision = Precision::Exact;
 
@@ -43,6 +43,8 @@ struct CommonOptions {
 };
 
 void add_scene_argument(CLI::App& app, CommonOptions& options, bool required = true);
+/// FILE, for commands that are asked of a JSON file instead of a scene.
+void add_file_argument(CLI::App& app, CommonOptions& options, const std::string& help);
 void add_common_options(CLI::App& app, CommonOptions& options);
 void add_budget_option(CLI::App& app, double& seconds);
 void add_region_option(CLI::App& app, std::vector<double>& region);
@@ -101,6 +103,7 @@ class Meter {
 Command add_info_command(CLI::App& app);
 Command add_skeleton_command(CLI::App& app);
 Command add_analyse_command(CLI::App& app);
+Command add_transversals_command(CLI::App& app);
 Command add_view_command(CLI::App& app);
 
 }  // namespace sightline::viewers

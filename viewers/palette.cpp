@@ -17,7 +17,7 @@ Colour colour_of_kind(std::string_view kind) {
       {"VV", {0.84F, 0.15F, 0.24F}},         {"VEE", {0.95F, 0.55F, 0.05F}},
       {"EVE", {0.10F, 0.60F, 0.36F}},        {"FvE", {0.52F, 0.28F, 0.74F}},
       {"saddle", {0.10F, 0.62F, 0.66F}},     {"pierce", {0.62F, 0.40F, 0.24F}},
-      {"degenerate", {0.80F, 0.22F, 0.62F}},
+      {"degenerate", {0.80F, 0.22F, 0.62F}}, {"EEEE", {0.84F, 0.15F, 0.24F}},
   };
   for (const auto& [name, colour] : kColours) {
     if (kind == name) return colour;

@@ -366,6 +366,29 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
   return files;
 }
 
+std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
+                                         const std::vector<LineBlock>& blocks) {
+  make_folder(folder);
+  std::vector<std::string> names;
+  std::vector<std::string> files;
+  for (const LineBlock& block : blocks) {
+    Cells cells;
+    int id = 0;
+    for (const LineBlock::Piece& piece : block.pieces) {
+      cells.add_line(piece.from, piece.to, colour_of_kind(block.kind));
+      cells.value("id", {id++});
+      cells.value("note", piece.note);
+    }
+    if (cells.empty()) continue;
+    write_poly_data(folder / (block.name + ".vtp"), cells.poly_data());
+    names.push_back(block.name);
+    files.push_back(block.name + ".vtp");
+  }
+  write_whole(folder / "sightline.vtm", multi_block_text(names));
+  files.emplace_back("sightline.vtm");
+  return files;
+}
+
 VtkPicture read_vtk(const std::filesystem::path& file) {
   VtkPicture picture;
   picture.soup.source = file.string();

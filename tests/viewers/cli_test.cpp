@@ -345,4 +345,86 @@ TEST_F(Cli, AnalyseSaysWhatIsMissing) {
   EXPECT_EQ(contents(folder / "room.obj"), contents(kRoom));
 }
 
+// ---- questions in JSON files
+// ------------------------------------------------------------
+
+class Questions : public Cli {
+ protected:
+  std::string file(const std::string& text) {
+    const fs::path path = folder_ / "io" / "question.json";
+    fs::create_directories(path.parent_path());
+    std::ofstream(path, std::ios::binary) << text;
+    return path.string();
+  }
+};
+
+TEST_F(Questions, TransversalsOfPublishedSegments) {
+  const std::string two = R"({"segments": [[[2,-3,1],[10,1,1]], [[1,5,11],[5,7,1]],
+      [[-10,-23,-31],[71,-38,-1]], [[11,-40,35],[-7,52,-21]]]})";
+  const json j = answer({"transversals", file(two), "--list"});
+  EXPECT_EQ(j.at("command"), "transversals");
+  EXPECT_EQ(j.at("scene"), json::parse(R"({"segments":4,"lines":0})"));
+  EXPECT_EQ(j.at("complete"), true);
+  EXPECT_EQ(j.at("lines"), 2);
+  EXPECT_EQ(j.at("families").at("count"), 0);
+  ASSERT_EQ(j.at("list").at("lines").size(), 2U);
+  for (const json& line : j.at("list").at("lines")) {
+    EXPECT_EQ(line.at("segments"), json::parse("[0,1,2,3]"));
+    EXPECT_EQ(line.at("line").size(), 2U);
+  }
+  for (const char* stage : {"double", "interval", "exact"}) {
+    EXPECT_TRUE(j.at("predicates").at(stage).is_number_unsigned());
+  }
+}
+
+TEST_F(Questions, TransversalsOfLinesAndConcurrentSegments) {
+  const json star = answer({"transversals", file(R"({"segments":
+      [[[-1,-2,0],[3,6,0]], [[0,0,-1],[0,0,5]], [[1,1,1],[-2,-2,-2]], [[0,0,0],[1,0,7]]]})")});
+  EXPECT_EQ(star.at("lines"), 0);
+  EXPECT_EQ(star.at("families").at("count"), 1);
+  EXPECT_EQ(star.at("families").at("2").at("star"), 1);
+  EXPECT_FALSE(star.contains("list"));
+  const json one = answer({"transversals", file(R"({"lines": [[[0,0,0],[1,0,0]],
+      [[0,0,1],[0,1,1]], [[1,1,2],[2,2,2]], [[1,2,3],[2,0,3]]]})")});
+  EXPECT_EQ(one.at("scene"), json::parse(R"({"segments":0,"lines":4})"));
+  EXPECT_EQ(one.at("lines"), 1);
+}
+
+TEST_F(Questions, TransversalsAsVtkFiles) {
+  const std::string vtk = (folder_ / "vtk").string();
+  const Run r = run({"transversals", file(R"({"segments": [[[2,-3,1],[10,1,1]],
+      [[1,5,11],[5,7,1]], [[-10,-23,-31],[71,-38,-1]], [[11,-40,35],[-7,52,-21]]]})"),
+                     "--vtk", vtk});
+  EXPECT_EQ(r.status, 0) << r.err;
+  for (const char* name : {"segments.vtp", "transversals.vtp", "sightline.vtm"}) {
+    EXPECT_TRUE(fs::exists(fs::path(vtk) / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(fs::path(vtk) / "family_samples.vtp"));
+}
+
+TEST_F(Questions, BadFilesAreRefusedByElement) {
+  const auto refused = [this](const std::string& text, const std::string& mentioned) {
+    expect_refused({"transversals", file(text)}, mentioned);
+  };
+  refused(R"({"segments": [[[0,0,0],[1,0,0]], [["a",0,0],[1,0,0]]]})",
+          "segments[1][0]: expected three finite numbers");
+  refused(R"({"segments": [[[0,0,0],[1,0]]]})", "segments[0][1]: expected three finite");
+  refused(R"({"segments": [[[0,0,0]]]})", "segments[0]: expected two points");
+  refused(R"({"segments": [[[0,0,0],[0,0,0]]]})",
+          "segments[0]: its two points are the same");
+  refused(R"({"lines": [[[0,0,0],[0,0,1e300]]]})",
+          "lines[0][1]: a coordinate is neither");
+  refused(R"({"lines": [[[0,0,0],[0,0,null]]]})", "lines[0][1]: expected three finite");
+  refused(R"({"lines": {"0": 1}})", "lines: expected an array");
+  refused(R"({"segments": [[[0,0,0],[1,0,1e999]]]})", "not JSON");
+  refused(R"({"segments": [[[0,0,0],[1,0,NaN]]]})", "not JSON");
+  refused(R"({"segments": [[[0,0,0],)", "not JSON");
+  refused("", "not JSON");
+  refused("[]", "expected an object");
+  refused("{}", "has neither");
+  expect_refused({"transversals", (folder_ / "io").string()}, "it is not a file");
+  expect_refused({"transversals", (folder_ / "none.json").string()}, "none.json");
+  expect_refused({"transversals"}, "FILE");
+}
+
 }  // namespace
