@@ -360,6 +360,10 @@ Sign compare(const Place& a, const Place& b, const Ring& radicand) {
                  radicand);
 }
 
+Place place_of_point(const ExactLine& line, const Point& p) {
+  return place_of_point(line.coordinates(), p);
+}
+
 bool meets(const ExactLine& line, const Portal& portal) {
   switch (portal.shape) {
     case Portal::Shape::Point:
@@ -520,6 +524,24 @@ bool pierces(const Portal& slit, const Portal& polygon) {
 
 }  // namespace
 
+bool touch(const Portal& a, const Portal& b) {
+  // One of the two has an edge, or is a point, that meets the other.
+  const auto meets_segment = [](const Point& p, const Point& q, const Portal& portal) {
+    const ExactLine line = ExactLine::through(p, p == q ? Point(p + Point::UnitX()) : q);
+    if (!meets(line, portal)) return false;
+    const Meeting m = meeting(line, portal, 0);
+    return compare(place_of_point(line, p), m.last, 0) != Sign::Positive &&
+           compare(m.first, place_of_point(line, q), 0) != Sign::Positive;
+  };
+  const auto one_way = [&](const Portal& from, const Portal& to) {
+    if (from.edges.empty()) return meets_segment(from.corners[0], from.corners[0], to);
+    return std::ranges::any_of(from.edges, [&](const LineThrough& e) {
+      return meets_segment(e.from, e.to, to);
+    });
+  };
+  return one_way(a, b) || one_way(b, a);
+}
+
 bool interiors_cross(const Portal& a, const Portal& b) {
   using Shape = Portal::Shape;
   if (a.shape == Shape::Slit && b.shape == Shape::Polygon) return pierces(a, b);
@@ -541,27 +563,51 @@ Point rounded(const HomogeneousPoint& p) {
   return out;
 }
 
-Point rounded_place(const ExactLine& line, const Place& place) {
-  // The point on the line whose coordinate on the axis is given: X = (x_i d + d x m' ) /
-  // d_i with (X x d)_j = m_j solved for the other two coordinates.
-  const ExactLine::Coordinates& c = line.coordinates();
+namespace {
+
+/// The coordinates at a place, each over its own denominator.
+struct PlaceCoordinates {
+  SurdVector num, den;
+};
+PlaceCoordinates coordinates(const ExactLine::Coordinates& c, const Place& place) {
   const int i = axis_of(c);
   const int j = (i + 1) % 3;
   const int k = (i + 2) % 3;
   const Ring& r = c.radicand;
-  const bool flip = sign_of(c.d[i], r) == Sign::Negative;
-  const Surd num = flip ? -place.num : place.num;
-  const Surd den = product(place.den, c.d[i], r);
-  // m_k = x_i d_j - x_j d_i,  m_j = x_k d_i - x_i d_k.
-  const Surd x_j = product(num, c.d[j], r) - product(c.m[k], place.den, r);
-  const Surd x_k = product(num, c.d[k], r) + product(c.m[j], place.den, r);
-  const auto value = [&r](const Surd& a, const Surd& b) {
-    return is_zero(a, r) ? 0 : quotient(a, b, r);
-  };
+  const Surd num = sign_of(c.d[i], r) == Sign::Negative ? -place.num : place.num;
+  // X x d = m:  m_k = x_i d_j - x_j d_i and m_j = x_k d_i - x_i d_k.
+  PlaceCoordinates out;
+  out.num[i] = num;
+  out.den[i] = place.den;
+  out.num[j] = product(num, c.d[j], r) - product(c.m[k], place.den, r);
+  out.num[k] = product(num, c.d[k], r) + product(c.m[j], place.den, r);
+  out.den[j] = out.den[k] = product(place.den, c.d[i], r);
+  return out;
+}
+
+}  // namespace
+
+HomogeneousPoint exact_place(const ExactLine& line, const Place& place) {
+  const ExactLine::Coordinates& c = line.coordinates();
+  const PlaceCoordinates at = coordinates(c, place);
+  const int i = axis_of(c);
+  const Ring& w = at.den[(i + 1) % 3].a;
+  HomogeneousPoint p{{at.num[0].a, at.num[1].a, at.num[2].a}, w};
+  p.x[i] = p.x[i] * c.d[i].a;  // the others' denominator has this factor
+  if (sign_of(w) == Sign::Negative) {
+    p.w = -p.w;
+    for (Ring& x : p.x) x = -x;
+  }
+  return p;
+}
+
+Point rounded_place(const ExactLine& line, const Place& place) {
+  const Ring& r = line.coordinates().radicand;
+  const PlaceCoordinates at = coordinates(line.coordinates(), place);
   Point out;
-  out[i] = value(num, place.den);
-  out[j] = value(x_j, den);
-  out[k] = value(x_k, den);
+  for (int i = 0; i < 3; ++i) {
+    out[i] = is_zero(at.num[i], r) ? 0 : quotient(at.num[i], at.den[i], r);
+  }
   return out;
 }
 

@@ -68,6 +68,9 @@ struct Meeting {
   Place first, last;
 };
 
+/// The place of a point of the line.
+[[nodiscard]] Place place_of_point(const ExactLine& line, const Eigen::Vector3d& p);
+
 [[nodiscard]] bool meets(const ExactLine& line, const Portal& portal);
 /// Requires meets().
 [[nodiscard]] Meeting meeting(const ExactLine& line, const Portal& portal, int index);
@@ -92,11 +95,15 @@ struct Meeting {
                                                        const LineThrough& f);
 /// Whether the plane of a polygon meets another portal.
 [[nodiscard]] bool plane_meets(const Portal& polygon, const Portal& portal);
+/// Whether two portals have a common point.
+[[nodiscard]] bool touch(const Portal& a, const Portal& b);
 /// Whether relative interiors meet, of portals that do not lie in one plane.
 [[nodiscard]] bool interiors_cross(const Portal& a, const Portal& b);
 
 [[nodiscard]] Eigen::Vector3d rounded(const HomogeneousPoint& p);
-/// Where the line crosses or touches the portal; the middle when it lies in its plane.
+/// The point at a place of a rational line.
+[[nodiscard]] HomogeneousPoint exact_place(const ExactLine& line, const Place& place);
+/// The point at a place, as RoundedPoint bounds it.
 [[nodiscard]] Eigen::Vector3d rounded_place(const ExactLine& line, const Place& place);
 
 }  // namespace sightline::internal

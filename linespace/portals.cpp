@@ -39,8 +39,6 @@ class Search {
   [[nodiscard]] const LineThrough& edge(int e) const { return s_.edges[e]; }
   int point_id(HomogeneousPoint p);
 
-  /// Adds how the line meets the portal; false when it then no longer stabs.
-  bool meet(HeldLine& held, int portal) const;
   void set_contacts(HeldLine& held);
   [[nodiscard]] bool crossing_edges(const PortalGenerator& a,
                                     const PortalGenerator& b) const;
@@ -75,22 +73,6 @@ int Search::point_id(HomogeneousPoint p) {
       s_.point_ids.try_emplace(p, static_cast<int>(s_.points.size()));
   if (added) s_.points.push_back(std::move(p));
   return at->second;
-}
-
-bool Search::meet(HeldLine& held, int portal) const {
-  Meeting now = meeting(held.line, s_.portals[portal], portal);
-  const Ring& radicand = held.line.coordinates().radicand;
-  for (int i = 0; i < static_cast<int>(held.meetings.size()); ++i) {
-    if (s_.without_order.contains({i, portal})) continue;
-    const Meeting& before = held.meetings[i];
-    held.forward =
-        held.forward && compare(before.first, now.last, radicand) != Sign::Positive;
-    held.backward =
-        held.backward && compare(now.first, before.last, radicand) != Sign::Positive;
-    if (!held.forward && !held.backward) return false;
-  }
-  held.meetings.push_back(std::move(now));
-  return true;
 }
 
 /// Two touched edges that meet in the touched point and are not of one line.
@@ -172,7 +154,7 @@ void Search::consider(const ExactLine& line, std::initializer_list<int> touched_
   }
   HeldLine held{line};
   for (int i = 0; i <= latest_; ++i) {
-    if (!meet(held, i)) return;
+    if (!add_meeting(s_, held, i)) return;
   }
   keep(std::move(held));
 }
@@ -331,7 +313,7 @@ void Search::run() {
   for (const HeldLine& old : old_) {
     if (old.meetings.empty() || !meets(old.line, portal_)) continue;
     HeldLine held = old;
-    if (meet(held, latest_)) keep(std::move(held));
+    if (add_meeting(s_, held, latest_)) keep(std::move(held));
   }
   s_.statistics.kept = s_.held.size();
 
@@ -409,6 +391,22 @@ void sort_lines(State& s) {
 }
 
 }  // namespace
+
+bool add_meeting(const PortalState& state, HeldLine& held, int portal) {
+  Meeting now = meeting(held.line, state.portals[portal], portal);
+  const Ring& radicand = held.line.coordinates().radicand;
+  for (int i = 0; i < static_cast<int>(held.meetings.size()); ++i) {
+    if (state.without_order.contains({i, portal})) continue;
+    const Meeting& before = held.meetings[i];
+    held.forward =
+        held.forward && compare(before.first, now.last, radicand) != Sign::Positive;
+    held.backward =
+        held.backward && compare(now.first, before.last, radicand) != Sign::Positive;
+    if (!held.forward && !held.backward) return false;
+  }
+  held.meetings.push_back(std::move(now));
+  return true;
+}
 
 ContactKey contact_key(const HeldLine& held) {
   ContactKey key;

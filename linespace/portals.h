@@ -77,14 +77,15 @@ struct StabbingWitness {
   std::array<Eigen::Vector3d, 2> points;  ///< rounded if `exact_in_doubles` is false
   bool exact_in_doubles;
   std::array<std::array<std::string, 3>, 2> rational;
-  /// The line meets the relative interiors of all portals and lies in no portal's plane.
+  /// It passes through the interiors of all portals and lies in no portal's plane, so
+  /// that all lines close to it stab too.
   bool interior;
 };
 
 /// Whether the stabbing lines have room to move in all four directions.
 enum class StabbingRoom {
   None,       ///< there are no stabbing lines
-  Open,       ///< proved by a line through all interiors
+  Open,       ///< some line passes through all interiors; proved
   Thin,       ///< every portal is met, but no line passes through all interiors; proved
   Undecided,  ///< neither proof was found (docs/portals.md says when that can be)
 };

@@ -40,6 +40,10 @@ using ContactKey = std::vector<PortalGenerator>;
 [[nodiscard]] ContactKey contact_key(const HeldLine& held);
 [[nodiscard]] StabbingKind kind_of(const HeldLine& held);
 
+struct PortalState;
+/// Adds how a line that meets the portal does so; false when it then no longer stabs.
+bool add_meeting(const PortalState& state, HeldLine& held, int portal);
+
 struct PortalState {
   std::vector<Portal> portals;
   std::vector<LineThrough> edges;  // of all portals
