@@ -214,10 +214,19 @@ bool heads_through(const ExactLine& line, const Portal& p) {
   return true;
 }
 
+std::vector<int> corners_on(const ExactLine& line, const Portal& p) {
+  std::vector<int> out;
+  for (int i = 0; i < p.corner_count(); ++i) {
+    if (line.passes_through(p.corners[i])) out.push_back(i);
+  }
+  return out;
+}
+
 bool meets_polygon(const ExactLine& line, const Portal& p) {
   const Sides s = sides(line, p);
+  if (!p.planar && !(s.positive && s.negative) && heads_through(line, p)) return true;
+  if (!p.planar) return corners_on(line, p).size() > 1;
   if (s.positive && s.negative) return false;
-  if (!p.planar) return (s.positive || s.negative) && heads_through(line, p);
   if (s.positive || s.negative) return true;
   const std::vector<Sign> in_plane = sides_in_plane(line, p);
   const auto all = [&in_plane](Sign sign) {
@@ -388,6 +397,15 @@ Meeting meeting(const ExactLine& line, const Portal& portal, int index) {
       return meeting_with_slit(line, portal, index);
     case Portal::Shape::Polygon:
       break;
+  }
+  if (!portal.planar) {
+    const std::vector<int> on = corners_on(line, portal);
+    if (on.size() < 2) return meeting_across(line, portal, index);
+    Meeting m;
+    m.in_plane = true;
+    for (const int i : on) m.touches.push_back(touch_corner(line, portal, index, i));
+    set_range(m, line.coordinates().radicand);
+    return m;
   }
   const Sides s = sides(line, portal);
   if (s.positive || s.negative) return meeting_across(line, portal, index);

@@ -48,6 +48,7 @@ class Search {
   void consider(int p, int e, int f);
   void keep(HeldLine held);
 
+  void add_all_generators();
   void find_new_points();
   void through_new_points(const HeldLine& old);
   void on_new_edges(const HeldLine& old);
@@ -269,7 +270,7 @@ void Search::in_new_plane(const HeldLine& old) {
 void Search::in_old_planes(const HeldLine& old) {
   for (const int plane : old.planes) {
     const Portal& polygon = s_.portals[plane];
-    if (!plane_meets(polygon, portal_)) continue;
+    if (!polygon.planar || !plane_meets(polygon, portal_)) continue;
     std::vector<int> points;
     for (const int p : new_points_) {
       if (side_of_plane(polygon, s_.points[p]) == Sign::Zero) points.push_back(p);
@@ -287,6 +288,26 @@ void Search::in_old_planes(const HeldLine& old) {
     if (const auto line = ExactLine::in_planes(polygon.plane(), portal_.plane())) {
       consider(*line, {});
     }
+  }
+}
+
+/// Next to the plane of a polygon that is not quite planar no extremal line stands for
+/// the families there.  While lines there can stab, every generator is tried.
+void Search::add_all_generators() {
+  for (int a = 0; a < latest_ && latest_ > 1; ++a) {
+    const Portal& p = s_.portals[a];
+    const auto met = [&p](const Portal& q) { return plane_meets(p, q); };
+    if (p.planar || !std::ranges::all_of(s_.portals, met)) continue;
+    HeldLine all{ExactLine::through({0, 0, 0}, {1, 0, 0})};
+    for (int e = 0; e < s_.first_edges[latest_]; ++e) all.edges.push_back(e);
+    for (int i = 0; i < latest_; ++i) {
+      for (const Eigen::Vector3d& v : s_.portals[i].corners) {
+        all.points.push_back(point_id(homogeneous(v)));
+      }
+    }
+    make_set(all.points);
+    old_.push_back(std::move(all));
+    return;
   }
 }
 
@@ -309,6 +330,7 @@ void Search::run() {
   }
   s_.only_a_point = still_a_point;
   if (dead || still_a_point) return;
+  add_all_generators();
 
   for (const HeldLine& old : old_) {
     if (old.meetings.empty() || !meets(old.line, portal_)) continue;

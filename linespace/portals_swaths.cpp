@@ -97,7 +97,8 @@ class Swaths {
 
  private:
   /// Neighbours along the first edge, where the lines between them stab.
-  void join(const Family& f, std::vector<int> lines) {
+  void join(Family f, std::vector<int> lines) {
+    lead_with_longest(f, lines);
     const LineThrough& e = s_.edges[f.edges[0]];
     std::erase_if(
         lines, [&](int i) { return s_.held[i].line.meets(e) == SegmentContact::Along; });
@@ -105,6 +106,24 @@ class Swaths {
       return compare_along(e, s_.held[i].line, s_.held[j].line) == Sign::Negative;
     });
     for (std::size_t i = 1; i < lines.size(); ++i) add(f, lines[i - 1], lines[i]);
+  }
+
+  /// Lines of three edges may all pass one of them in nearly the same point: they are
+  /// told apart along the edge on which they spread most.
+  void lead_with_longest(Family& f, const std::vector<int>& lines) const {
+    if (f.point >= 0) return;
+    const auto spread = [&](int edge) {
+      double low = 1, high = 0;
+      for (const int i : lines) {
+        const LineThrough& e = s_.edges[edge];
+        if (s_.held[i].line.meets(e) == SegmentContact::Along) continue;
+        low = std::min(low, parameter(e, i));
+        high = std::max(high, parameter(e, i));
+      }
+      return high - low;
+    };
+    const auto longest = std::ranges::max_element(f.edges, {}, spread);
+    std::ranges::rotate(f.edges, longest);
   }
 
   [[nodiscard]] double parameter(const LineThrough& e, int line) const {

@@ -300,6 +300,34 @@ bool proved_thin(const PortalState& s, const HeldLine& held) {
   return true;
 }
 
+/// Some edge of `a` has `a` on one side and `b` on the other, both in one plane.
+bool edge_separates(const Portal& a, const Portal& b) {
+  return std::ranges::any_of(a.edges, [&](const LineThrough& e) {
+    const RingVector inward = cross(a.normal, ring_difference(e.to, e.from));
+    return std::ranges::none_of(b.corners, [&](const Eigen::Vector3d& v) {
+      return sign_of(dot(inward, ring_difference(v, e.from))) == Sign::Positive;
+    });
+  });
+}
+
+/// Polygons of one plane without a common interior point: a line that passes the plane in
+/// one point cannot pass both interiors.
+bool apart_in_one_plane(const Portal& a, const Portal& b) {
+  const PlaneSide plane(a.plane());
+  const auto on_plane = [&](const Eigen::Vector3d& v) { return plane(v) == Sign::Zero; };
+  return a.planar && std::ranges::all_of(b.corners, on_plane) &&
+         (edge_separates(a, b) || edge_separates(b, a));
+}
+
+bool some_apart_in_one_plane(const PortalState& s) {
+  for (std::size_t i = 0; i < s.portals.size(); ++i) {
+    for (std::size_t j = i + 1; j < s.portals.size(); ++j) {
+      if (apart_in_one_plane(s.portals[i], s.portals[j])) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 }  // namespace internal
 
@@ -322,7 +350,9 @@ StabbingRoom PortalSequence::room() const {
   const auto polygon = [](const internal::Portal& p) {
     return p.shape == internal::Portal::Shape::Polygon;
   };
-  if (!std::ranges::all_of(s.portals, polygon)) return StabbingRoom::Thin;
+  if (!std::ranges::all_of(s.portals, polygon) || internal::some_apart_in_one_plane(s)) {
+    return StabbingRoom::Thin;
+  }
   if (s.portals.empty() ||
       std::ranges::any_of(s.held,
                           [&](const auto& h) { return internal::has_room(s, h); }) ||

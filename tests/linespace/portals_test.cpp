@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <map>
+#include <numbers>
 #include <set>
 #include <string>
 
@@ -231,7 +232,7 @@ Portals random_portals(RandomGeometry& random) {
 TEST(PortalSequence, DoesNotDependOnDirectionNumberingOrAxes) {
   RandomGeometry random(22);
   int lines = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 150; ++i) {
     const Portals portals = random_portals(random);
     const PortalSequence s = sequence(portals);
     const auto expected = by_place(s);
@@ -258,7 +259,7 @@ TEST(PortalSequence, DoesNotDependOnDirectionNumberingOrAxes) {
     for (const NaivePortal& p : portals) doubled.insert(doubled.end(), 2, p);
     EXPECT_EQ(by_place(sequence(doubled)), expected) << text(portals);
   }
-  EXPECT_GT(lines, 3000);
+  EXPECT_GT(lines, 1500);
 }
 
 // Each simple line is held by four conditions and can be let go along each of them; each
@@ -266,14 +267,21 @@ TEST(PortalSequence, DoesNotDependOnDirectionNumberingOrAxes) {
 TEST(PortalSequence, InGeneralPositionFourSwathsEndAtEveryLine) {
   RandomGeometry random(23);
   int tested = 0;
-  for (int i = 0; i < 300; ++i) {
+  std::size_t curved = 0;
+  for (int i = 0; i < 100; ++i) {
     Portals portals(random.integer(2, 6));
     for (std::size_t k = 0; k < portals.size(); ++k) {
-      for (int c = 0; c < 3; ++c) {
-        portals[k].emplace_back(4 * std::cos(2.1 * c) + random.uniform(-1, 1),
-                                4 * std::sin(2.1 * c) + random.uniform(-1, 1),
-                                5.0 * static_cast<double>(k) + random.uniform(-1, 1));
+      // Triangles, and polygons that rounding puts out of plane.
+      const int corners = random.integer(3, 5);
+      const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+      const double u = random.uniform(-0.2, 0.2), v = random.uniform(-0.2, 0.2);
+      for (int c = 0; c < corners; ++c) {
+        const double angle = 2 * std::numbers::pi * c / corners + x;
+        const double dx = 4 * std::cos(angle), dy = 4 * std::sin(angle);
+        portals[k].emplace_back(x + dx, y + dy,
+                                5.0 * static_cast<double>(k) + u * dx + v * dy);
       }
+      curved += sequence({portals[k]}).out_of_plane().size();
     }
     const PortalSequence s = sequence(portals);
     const auto kinds = counts(s);
@@ -282,7 +290,8 @@ TEST(PortalSequence, InGeneralPositionFourSwathsEndAtEveryLine) {
     EXPECT_EQ(s.swaths().size(), 2 * s.extremal_lines().size()) << text(portals);
     EXPECT_EQ(s.room(), StabbingRoom::Open);
   }
-  EXPECT_GT(tested, 200);
+  EXPECT_GT(tested, 80);
+  EXPECT_GT(curved, 50U);
 }
 
 TEST(PortalSequence, TwoSquaresAreJoinedByThirtyTwoSwaths) {
@@ -402,18 +411,19 @@ TEST(PortalSequence, ThinWhereOnlyEdgesLineUp) {
 }
 
 TEST(PortalSequence, CoplanarPortals) {
-  // Two windows of one wall: only lines in the wall.
+  // Two windows of one wall: only lines in the wall.  16 pairs of corners, of which four
+  // lie on the line along both bottoms, and four on that along both tops.
   const PortalSequence s = sequence({square(0), square(0, 3)});
   EXPECT_EQ(s.room(), StabbingRoom::Thin);
-  EXPECT_EQ(counts(s), (std::map<std::string, int>{{"in_plane", 12}}));
+  EXPECT_EQ(counts(s), (std::map<std::string, int>{{"in_plane", 10}}));
 }
 
 TEST(PortalSequence, SlitsAndPoints) {
   const NaivePortal point{{0.5, 0.5, 1}};
+  // Through the centre, from corner to opposite corner: three fixed contacts where two
+  // would do.
   const PortalSequence through = sequence({square(0), point, square(2)});
-  EXPECT_EQ(counts(through), (std::map<std::string, int>{{"VV", 4}}) == counts(through)
-                                 ? counts(through)
-                                 : (std::map<std::string, int>{{"degenerate", 4}}));
+  EXPECT_EQ(counts(through), (std::map<std::string, int>{{"degenerate", 4}}));
   EXPECT_EQ(through.room(), StabbingRoom::Thin);
   const PortalSequence same = sequence({point, point, point});
   EXPECT_TRUE(same.stabbable());
@@ -448,7 +458,8 @@ TEST(PortalSequence, RotatedSquaresThatAreNotQuitePlanar) {
   const PortalSequence s = sequence(portals);
   EXPECT_FALSE(s.out_of_plane().empty());
   EXPECT_EQ(s.room(), StabbingRoom::Open);
-  EXPECT_EQ(s.swaths().size(), 2 * s.extremal_lines().size());
+  EXPECT_EQ(s.extremal_lines().size(), 36U);  // as when they are not rotated
+  EXPECT_EQ(s.swaths().size(), 72U);
 }
 
 TEST(PortalSequence, RefusesWhatIsNoConvexPolygon) {
