@@ -187,6 +187,7 @@ std::vector<Sign> sides_in_plane(const ExactLine& line, const Portal& p) {
 struct Sides {
   bool positive = false;
   bool negative = false;
+  int zeros = 0;
 };
 
 Sides sides(const ExactLine& line, const Portal& p) {
@@ -195,7 +196,8 @@ Sides sides(const ExactLine& line, const Portal& p) {
     const Sign sign = line.side(e);
     s.positive |= sign == Sign::Positive;
     s.negative |= sign == Sign::Negative;
-    if (s.positive && s.negative) break;
+    s.zeros += sign == Sign::Zero;
+    if (s.positive && s.negative && p.planar) break;
   }
   return s;
 }
@@ -224,9 +226,10 @@ std::vector<int> corners_on(const ExactLine& line, const Portal& p) {
 
 bool meets_polygon(const ExactLine& line, const Portal& p) {
   const Sides s = sides(line, p);
-  if (!p.planar && !(s.positive && s.negative) && heads_through(line, p)) return true;
-  if (!p.planar) return corners_on(line, p).size() > 1;
+  // A line through two corners is in one plane with three edges at least.
+  if (!p.planar && s.zeros > 2 && corners_on(line, p).size() > 1) return true;
   if (s.positive && s.negative) return false;
+  if (!p.planar) return heads_through(line, p);
   if (s.positive || s.negative) return true;
   const std::vector<Sign> in_plane = sides_in_plane(line, p);
   const auto all = [&in_plane](Sign sign) {
@@ -398,8 +401,10 @@ Meeting meeting(const ExactLine& line, const Portal& portal, int index) {
     case Portal::Shape::Polygon:
       break;
   }
+  const Sides s = sides(line, portal);
   if (!portal.planar) {
-    const std::vector<int> on = corners_on(line, portal);
+    const std::vector<int> on =
+        s.zeros > 2 ? corners_on(line, portal) : std::vector<int>();
     if (on.size() < 2) return meeting_across(line, portal, index);
     Meeting m;
     m.in_plane = true;
@@ -407,7 +412,6 @@ Meeting meeting(const ExactLine& line, const Portal& portal, int index) {
     set_range(m, line.coordinates().radicand);
     return m;
   }
-  const Sides s = sides(line, portal);
   if (s.positive || s.negative) return meeting_across(line, portal, index);
   return meeting_in_plane(line, portal, index);
 }

@@ -95,6 +95,7 @@ enum class StabbingRoom {
 struct StabbingSwath {
   std::vector<PortalGenerator> generators;  ///< of the fixed point, then of the edges
   bool has_vertex;                          ///< EV; otherwise EEE
+  Eigen::Vector3d vertex;                   ///< of an EV: the fixed point, rounded
   std::array<int, 2> lines;                 ///< positions in extremal_lines()
   /// Lines of the family from one end to the other, from first to last portal, rounded.
   std::vector<std::array<Eigen::Vector3d, 2>> rungs;

@@ -136,8 +136,9 @@ class Swaths {
     const LineThrough& e = s_.edges[f.edges[0]];
     const double from = parameter(e, a), to = parameter(e, b);
     if (!line_at(s_, f, from + 0.5 * (to - from))) return;
-    StabbingSwath swath{{}, f.point >= 0, {a, b}, {}};
+    StabbingSwath swath{{}, f.point >= 0, {0, 0, 0}, {a, b}, {}};
     if (f.point >= 0) {
+      swath.vertex = rounded(s_.points[f.point]);
       for (const Contact& c : s_.held[a].contacts) {
         for (const PortalGenerator& g : c.generators) {
           if (at_point(g, f.point)) add_generator(swath, g);
