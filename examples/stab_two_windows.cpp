@@ -11,7 +11,7 @@ int main() {
   using Polygon = std::vector<Eigen::Vector3d>;
   const Polygon window{{0, 0, 1}, {2, 0, 1}, {2, 0, 2}, {0, 0, 2}};
   const Polygon door{{1, 3, 0}, {2, 3, 0}, {2, 3, 2}, {1, 3, 2}};
-  const Polygon far_window{{4, 6, 1}, {6, 6, 1}, {6, 6, 2}, {4, 6, 2}};
+  const Polygon far_window{{2.5, 6, 1}, {5, 6, 1}, {5, 6, 2}, {2.5, 6, 2}};
 
   sightline::PortalSequence sequence;
   sequence.push(window);
@@ -32,10 +32,11 @@ int main() {
   // A line for anybody to check: it passes through all three interiors.
   const auto witness = sequence.witness();
   if (!witness || !witness->interior) return 1;
-  std::printf("through all three: (%s, %s, %s) to (%s, %s, %s)\n",
-              witness->rational[0][0].c_str(), witness->rational[0][1].c_str(),
-              witness->rational[0][2].c_str(), witness->rational[1][0].c_str(),
-              witness->rational[1][1].c_str(), witness->rational[1][2].c_str());
+  const auto& [from, to] = witness->points;
+  std::printf("through all three: (%.17g, %.17g, %.17g) to (%.17g, %.17g, %.17g)\n",
+              from.x(), from.y(), from.z(), to.x(), to.y(), to.z());
+  if (!witness->exact_in_doubles)
+    std::printf("  (rounded; witness->rational is exact)\n");
 
   // One more window, to the side: no line bends around the corner.
   sequence.push(Polygon{{0, 9, 1}, {2, 9, 1}, {2, 9, 2}, {0, 9, 2}});

@@ -167,7 +167,7 @@ TEST(PortalSequence, SquareBetweenTwoSquaresByHand) {
 TEST(PortalSequence, AgreesWithTheNaiveEnumerationOnWindows) {
   RandomGeometry random(20);
   int stabbable = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 300; ++i) {
     Portals portals(random.integer(2, 4));
     const bool degenerate = random.one_in(2);
     const int grid = random.integer(2, 4);
@@ -177,14 +177,14 @@ TEST(PortalSequence, AgreesWithTheNaiveEnumerationOnWindows) {
     ASSERT_EQ(undirected(described(s)), undirected(naive)) << i << "\n" << text(portals);
     stabbable += s.stabbable();
   }
-  EXPECT_GT(stabbable, 100);
-  EXPECT_LT(stabbable, 380);
+  EXPECT_GT(stabbable, 75);
+  EXPECT_LT(stabbable, 285);
 }
 
 TEST(PortalSequence, AgreesWithTheNaiveEnumerationOnFacingPolygons) {
   RandomGeometry random(21);
   std::map<std::string, int> seen;
-  for (int i = 0; i < 150; ++i) {
+  for (int i = 0; i < 100; ++i) {
     Portals portals(random.integer(2, 5));
     for (std::size_t k = 0; k < portals.size(); ++k) {
       portals[k] = facing(random, 4.0 * static_cast<double>(k));
@@ -435,6 +435,20 @@ TEST(PortalSequence, SlitsAndPoints) {
   const PortalSequence slit =
       sequence({square(0), {{0, 0.5, 1}, {1, 0.5, 1}, {0.5, 0.5, 1}, {0, 0.5, 1}}});
   EXPECT_EQ(counts(slit), (std::map<std::string, int>{{"VV", 8}}));
+}
+
+// Slits that join points of two lines, the z axis and (1, z/2, z), at heights that no
+// projectivity maps to each other: just these two lines, with the same contacts.
+TEST(PortalSequence, TwoLinesThroughTheSameFourEdges) {
+  PortalSequence s;
+  for (const auto& [a, b] : {std::pair{0.0, 0.0}, {1.0, 1.5}, {2.0, 2.0}, {3.0, 4.0}}) {
+    const Eigen::Vector3d p(0, 0, a), q(1, 0.5 * b, b);
+    s.push(NaivePortal{p - 0.5 * (q - p), q + 0.5 * (q - p)});
+  }
+  EXPECT_EQ(counts(s), (std::map<std::string, int>{{"EEEE", 2}}));
+  EXPECT_EQ(s.room(), StabbingRoom::Thin);
+  ASSERT_TRUE(s.witness());
+  EXPECT_FALSE(s.witness()->interior);
 }
 
 TEST(PortalSequence, SharedEdge) {
