@@ -22,8 +22,6 @@
 #include <string_view>
 #include <vector>
 
-#include "linespace/request.h"
-
 namespace sightline {
 
 namespace internal {
