@@ -103,6 +103,7 @@ class Meter {
 Command add_info_command(CLI::App& app);
 Command add_skeleton_command(CLI::App& app);
 Command add_analyse_command(CLI::App& app);
+Command add_stab_command(CLI::App& app);
 Command add_transversals_command(CLI::App& app);
 Command add_view_command(CLI::App& app);
 

@@ -18,6 +18,8 @@ Colour colour_of_kind(std::string_view kind) {
       {"EVE", {0.10F, 0.60F, 0.36F}},        {"FvE", {0.52F, 0.28F, 0.74F}},
       {"saddle", {0.10F, 0.62F, 0.66F}},     {"pierce", {0.62F, 0.40F, 0.24F}},
       {"degenerate", {0.80F, 0.22F, 0.62F}}, {"EEEE", {0.84F, 0.15F, 0.24F}},
+      {"EEE", {0.10F, 0.62F, 0.66F}},        {"in_plane", {0.52F, 0.28F, 0.74F}},
+      {"portal", {0.55F, 0.57F, 0.62F}},
   };
   for (const auto& [name, colour] : kColours) {
     if (kind == name) return colour;

@@ -378,6 +378,15 @@ std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
       cells.add_line(piece.from, piece.to, colour_of_kind(block.kind));
       cells.value("id", {id++});
       cells.value("note", piece.note);
+      cells.value("kind", block.kind);
+    }
+    for (const LineBlock::Polygon& polygon : block.polygons) {
+      std::vector<vtkIdType> ids;
+      for (const Point& p : polygon.corners) ids.push_back(cells.add_point(p));
+      cells.add_polygon(ids, colour_of_kind(block.kind));
+      cells.value("id", {id++});
+      cells.value("note", polygon.note);
+      cells.value("kind", block.kind);
     }
     if (cells.empty()) continue;
     write_poly_data(folder / (block.name + ".vtp"), cells.poly_data());

@@ -38,20 +38,25 @@ struct VtkContents {
 std::vector<std::string> write_vtk(const std::filesystem::path& folder,
                                    const Scene& scene, const VtkContents& contents);
 
-/// Straight pieces of one kind, with what they are called and told of.
+/// Straight pieces, or polygons, of one kind, with what they are called and told of.
 struct LineBlock {
   struct Piece {
     Point from, to;
     std::string note;  ///< goes into the cell array `note`
   };
+  struct Polygon {
+    std::vector<Point> corners;
+    std::string note;
+  };
   std::string name;
   std::string kind;  ///< chooses the colour, as colour_of_kind
   std::vector<Piece> pieces;
+  std::vector<Polygon> polygons = {};
 };
 
-/// For answers without a scene: each block that is not empty as NAME.vtp, lines with the
-/// cell arrays id (position in the block), note, colour; and sightline.vtm over all.
-/// Returns the names of the files.  Throws OutputError.
+/// For answers without a scene: each block that is not empty as NAME.vtp, lines and then
+/// polygons with the cell arrays kind, id (position in the block), note, colour; and
+/// sightline.vtm over all. Returns the names of the files.  Throws OutputError.
 std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
                                          const std::vector<LineBlock>& blocks);
 

@@ -427,4 +427,61 @@ TEST_F(Questions, BadFilesAreRefusedByElement) {
   expect_refused({"transversals"}, "FILE");
 }
 
+constexpr const char* kThreeWindows = R"({"portals": [
+    [[0,0,0],[1,0,0],[1,1,0],[0,1,0]],
+    [[0.25,0.25,1],[0.75,0.25,1],[0.75,0.75,1],[0.25,0.75,1]],
+    [[0,0,2],[1,0,2],[1,1,2],[0,1,2]]]})";
+
+TEST_F(Questions, StabThreeWindows) {
+  const json j = answer({"stab", file(kThreeWindows), "--list"});
+  EXPECT_EQ(j.at("command"), "stab");
+  EXPECT_EQ(j.at("scene"), json::parse(R"({"portals":3,"corners":12})"));
+  EXPECT_EQ(j.at("complete"), true);
+  EXPECT_EQ(j.at("stabbable"), true);
+  EXPECT_EQ(j.at("room"), "open");
+  EXPECT_EQ(j.at("extremal"), json::parse(R"({"VV":12,"VEE":16,"EVE":8,"EEEE":0,
+                                              "in_plane":0,"degenerate":0})"));
+  EXPECT_EQ(j.at("line").size(), 2U);
+  EXPECT_EQ(j.at("line_exact"), true);
+  EXPECT_EQ(j.at("line_inside"), true);
+  EXPECT_EQ(j.at("pushes").size(), 3U);
+  EXPECT_EQ(j.at("list").size(), 36U);
+  EXPECT_EQ(j.at("list")[0].at("kind"), "VV");
+}
+
+TEST_F(Questions, StabWhatCannotBe) {
+  const json j = answer({"stab", file(R"({"portals": [
+      [[0,0,0],[1,0,0],[1,1,0],[0,1,0]], [[2,0,1],[3,0,1],[3,1,1],[2,1,1]],
+      [[0,0,2],[1,0,2],[1,1,2],[0,1,2]]]})")});
+  EXPECT_EQ(j.at("stabbable"), false);
+  EXPECT_EQ(j.at("room"), "none");
+  EXPECT_TRUE(j.at("line").is_null());
+  const json conservative =
+      answer({"stab", file(kThreeWindows), "--method", "conservative"});
+  EXPECT_EQ(conservative.at("stabbable"), true);
+  EXPECT_EQ(answer({"stab", file(R"({"portals": []})")}).at("stabbable"), true);
+}
+
+TEST_F(Questions, StabAsVtkFiles) {
+  const std::string vtk = (folder_ / "vtk").string();
+  const Run r = run({"stab", file(kThreeWindows), "--vtk", vtk});
+  EXPECT_EQ(r.status, 0) << r.err;
+  for (const char* name : {"portals.vtp", "extremal_VV.vtp", "extremal_VEE.vtp",
+                           "extremal_EVE.vtp", "swaths_EV.vtp", "sightline.vtm"}) {
+    EXPECT_TRUE(fs::exists(fs::path(vtk) / name)) << name;
+  }
+  EXPECT_FALSE(fs::exists(fs::path(vtk) / "extremal_EEEE.vtp"));
+}
+
+TEST_F(Questions, BadPortalsAreRefusedByElement) {
+  const auto refused = [this](const std::string& text, const std::string& mentioned) {
+    expect_refused({"stab", file(text)}, mentioned);
+  };
+  refused("{}", "portals");
+  refused(R"({"portals": [[]]})", "portals[0]");
+  refused(R"({"portals": [[[0,0,0],[1,0]]]})", "portals[0][1]: expected three finite");
+  refused(R"({"portals": [[[0,0,0]], [[0,0,0],[2,0,0],[0.5,0.5,0],[0,2,0]]]})",
+          "portals[1]: not convex");
+}
+
 }  // namespace

@@ -1,0 +1,273 @@
+// `sightline stab`: lines through a sequence of convex portals.
+
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "linespace/portals.h"
+#include "viewers/command_line.h"
+#include "viewers/json_input.h"
+#include "viewers/vtk_export.h"
+
+namespace sightline::viewers {
+namespace {
+
+struct StabOptions : CommonOptions {
+  std::string method = "exact";
+  int rungs = 17;
+  bool list = false;
+};
+
+struct Question {
+  std::vector<std::vector<Point>> portals;
+  std::vector<JsonInput> items;  // the same, to say where something is wrong
+};
+
+Question read_question(const std::string& name) {
+  Question q;
+  q.items = JsonInput(name).at("portals").items();
+  for (const JsonInput& item : q.items) q.portals.push_back(item.points(1));
+  return q;
+}
+
+/// Calls push, and says of a refusal where in the file it belongs.
+template <class Sequence>
+void push(Sequence& sequence, const Question& question, std::size_t i) {
+  try {
+    sequence.push(question.portals[i]);
+  } catch (const InvalidInput& refusal) {
+    const std::string_view what = refusal.what();
+    question.items[i].refuse(what.substr(what.find(": ") + 2));
+  }
+}
+
+std::string generator_text(const PortalGenerator& g) {
+  const char letter = "VEP"[static_cast<int>(g.kind)];
+  return fmt::format("{}{}.{}", letter, g.portal, g.index);
+}
+
+std::string contacts_text(const ExtremalStabbingLine& line) {
+  std::string text;
+  for (const StabbingContact& c : line.contacts) {
+    if (!text.empty()) text += ' ';
+    for (std::size_t i = 0; i < c.generators.size(); ++i) {
+      text += (i == 0 ? "" : "+") + generator_text(c.generators[i]);
+    }
+  }
+  return text;
+}
+
+Json counts_json(const PortalSequence& sequence) {
+  Json counts;
+  for (std::size_t i = 0; i < kStabbingKinds; ++i) {
+    counts[std::string(name(static_cast<StabbingKind>(i)))] = 0;
+  }
+  for (const ExtremalStabbingLine& line : sequence.extremal_lines()) {
+    Json& n = counts[std::string(name(line.kind))];
+    n = n.get<std::int64_t>() + 1;
+  }
+  return counts;
+}
+
+Json list_json(const PortalSequence& sequence) {
+  Json list = Json::array();
+  for (const ExtremalStabbingLine& line : sequence.extremal_lines()) {
+    Json contacts = Json::array();
+    for (const StabbingContact& c : line.contacts) {
+      Json generators = Json::array();
+      for (const PortalGenerator& g : c.generators) {
+        generators.push_back(
+            {{"type", g.kind == PortalGenerator::Kind::Vertex ? "vertex" : "edge"},
+             {"portal", g.portal},
+             {"index", g.index}});
+      }
+      contacts.push_back({{"type", c.fixed ? "V" : "E"},
+                          {"at", point_json(c.at)},
+                          {"generators", std::move(generators)}});
+    }
+    list.push_back({{"kind", name(line.kind)},
+                    {"line", points_json(line.segment)},
+                    {"contacts", std::move(contacts)},
+                    {"planes", line.planes}});
+  }
+  return list;
+}
+
+const char* room_name(StabbingRoom room) {
+  static constexpr const char* kNames[] = {"none", "open", "thin", "undecided"};
+  return kNames[static_cast<int>(room)];
+}
+
+/// "line" as two points: numbers, or strings "p/q" where no doubles are exact.
+void add_line(Json& answer, const PortalSequence& sequence) {
+  answer["line"] = nullptr;
+  answer["line_exact"] = nullptr;
+  answer["line_inside"] = nullptr;
+  if (const auto w = sequence.witness()) {
+    if (w->exact_in_doubles) {
+      answer["line"] = points_json(w->points);
+    } else {
+      answer["line"] = {w->rational[0], w->rational[1]};
+    }
+    answer["line_exact"] = true;
+    answer["line_inside"] = w->interior;
+  } else if (!sequence.extremal_lines().empty()) {
+    answer["line"] = points_json(sequence.extremal_lines().front().segment);
+    answer["line_exact"] = false;
+    answer["line_inside"] = false;
+  }
+}
+
+std::vector<LineBlock::Polygon> drawn(const StabbingSwath& swath) {
+  std::string note;
+  for (const PortalGenerator& g : swath.generators) {
+    note += (note.empty() ? "" : " ") + generator_text(g);
+  }
+  std::vector<LineBlock::Polygon> out;
+  const auto add = [&](const Point& a, const Point& b, const Point& c) {
+    if (a != b && b != c && c != a) out.push_back({{a, b, c}, note});
+  };
+  for (std::size_t i = 1; i < swath.rungs.size(); ++i) {
+    const auto& [a0, a1] = swath.rungs[i - 1];
+    const auto& [b0, b1] = swath.rungs[i];
+    if (swath.has_vertex) {
+      add(swath.vertex, a0, b0);
+      add(swath.vertex, a1, b1);
+    } else {
+      add(a0, a1, b1);
+      add(a0, b1, b0);
+    }
+  }
+  return out;
+}
+
+void write_pictures(const StabOptions& options, const Question& question,
+                    const PortalSequence& sequence) {
+  std::vector<LineBlock> blocks;
+  LineBlock portals{"portals", "portal", {}};
+  LineBlock slits{"slits", "portal", {}};
+  for (std::size_t i = 0; i < question.portals.size(); ++i) {
+    const std::vector<Point>& p = question.portals[i];
+    const std::string note = fmt::format("portals[{}]", i);
+    if (p.size() > 2) portals.polygons.push_back({p, note});
+    if (p.size() == 2) slits.pieces.push_back({p[0], p[1], note});
+  }
+  blocks.push_back(std::move(portals));
+  blocks.push_back(std::move(slits));
+  for (std::size_t kind = 0; kind < kStabbingKinds; ++kind) {
+    const std::string text(name(static_cast<StabbingKind>(kind)));
+    LineBlock block{"extremal_" + text, text, {}};
+    for (const ExtremalStabbingLine& line : sequence.extremal_lines()) {
+      if (static_cast<std::size_t>(line.kind) != kind) continue;
+      block.pieces.push_back({line.segment[0], line.segment[1], contacts_text(line)});
+    }
+    blocks.push_back(std::move(block));
+  }
+  LineBlock ev{"swaths_EV", "EV", {}};
+  LineBlock eee{"swaths_EEE", "EEE", {}};
+  for (const StabbingSwath& swath : sequence.swaths(options.rungs)) {
+    std::vector<LineBlock::Polygon>& to = swath.has_vertex ? ev.polygons : eee.polygons;
+    for (LineBlock::Polygon& polygon : drawn(swath)) to.push_back(std::move(polygon));
+  }
+  blocks.push_back(std::move(ev));
+  blocks.push_back(std::move(eee));
+  write_vtk_lines(options.vtk, blocks);
+}
+
+void print_summary(const StabOptions& options, const Json& answer) {
+  std::cout << fmt::format(
+      "{}: {} portals, {}\n", options.scene,
+      answer["scene"]["portals"].get<std::size_t>(),
+      answer["stabbable"].get<bool>() ? "stabbable" : "not stabbable");
+  if (answer.contains("room")) {
+    std::cout << fmt::format("  room: {}\n", answer["room"].get<std::string>());
+    for (const auto& [kind, count] : answer["extremal"].items()) {
+      if (count != 0) std::cout << fmt::format("  {}: {}\n", kind, count.get<int>());
+    }
+  }
+  std::cout << fmt::format("  {:.3f} s\n", answer["seconds"].get<double>());
+}
+
+Json head(const Question& question, const Meter& meter) {
+  std::size_t corners = 0;
+  for (const auto& p : question.portals) corners += p.size();
+  return answer_head("stab",
+                     Json{{"portals", question.portals.size()}, {"corners", corners}},
+                     true, {meter.seconds(), meter.predicates()});
+}
+
+ExitStatus run_conservative(const StabOptions& options, const Question& question,
+                            const Meter& meter) {
+  SeparatingPlanesSequence sequence;
+  for (std::size_t i = 0; i < question.portals.size(); ++i) push(sequence, question, i);
+  Json answer = head(question, meter);
+  answer["method"] = "conservative";
+  answer["stabbable"] = sequence.maybe_stabbable();
+  write_answer(options, answer);
+  if (options.may_print()) print_summary(options, answer);
+  return kAnswered;
+}
+
+ExitStatus run(const StabOptions& options) {
+  const Meter meter;
+  const Question question = read_question(options.scene);
+  if (options.method == "conservative") return run_conservative(options, question, meter);
+  PortalSequence sequence;
+  Json pushes = Json::array();
+  for (std::size_t i = 0; i < question.portals.size(); ++i) {
+    const Meter push_meter;
+    push(sequence, question, i);
+    pushes.push_back({{"portal", i},
+                      {"stabbable", sequence.stabbable()},
+                      {"extremal", sequence.extremal_lines().size()},
+                      {"candidates", sequence.last_push().candidates},
+                      {"milliseconds", 1e3 * push_meter.seconds()}});
+  }
+  Json found;
+  found["method"] = "exact";
+  found["stabbable"] = sequence.stabbable();
+  found["room"] = room_name(sequence.room());
+  found["extremal"] = counts_json(sequence);
+  add_line(found, sequence);
+  found["out_of_plane"] = sequence.out_of_plane();
+  found["pushes"] = std::move(pushes);
+  if (options.list) found["list"] = list_json(sequence);
+  Json answer = head(question, meter);
+  answer.update(found);
+  if (!options.vtk.empty()) write_pictures(options, question, sequence);
+  write_answer(options, answer);
+  if (options.may_print()) print_summary(options, answer);
+  return kAnswered;
+}
+
+}  // namespace
+
+Command add_stab_command(CLI::App& app) {
+  auto options = std::make_shared<StabOptions>();
+  CLI::App* command = app.add_subcommand(
+      "stab",
+      "lines through the convex portals of a JSON file, in order (always exact; its "
+      "cheap end is --method conservative)");
+  add_file_argument(
+      *command, *options,
+      R"(JSON: {"portals": [[[x,y,z], ...], ...]}, in scene units; convex )"
+      "polygons in the order in which a line is to meet them, two points for "
+      "a slit, one for a point");
+  command
+      ->add_option("--method", options->method,
+                   "exact, or conservative: by separating planes, which may call "
+                   "stabbable what is not, and finds no lines")
+      ->check(CLI::IsMember({"exact", "conservative"}))
+      ->capture_default_str();
+  command->add_flag("--list", options->list,
+                    "add every extremal stabbing line, with its contacts, to the answer");
+  command
+      ->add_option("--rungs", options->rungs,
+                   "lines drawn of each EV and EEE family in --vtk files")
+      ->check(CLI::Range(2, 10000))
+      ->capture_default_str();
+  add_common_options(*command, *options);
+  return [options] { return run(*options); };
+}
+
+}  // namespace sightline::viewers
