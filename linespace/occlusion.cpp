@@ -276,6 +276,21 @@ struct OcclusionIndex::Impl {
     std::vector<int>* faces;                      // that perhaps meet the line, per ray
     const internal::FaceSegment* ends = nullptr;  // whose end faces do not count, per ray
     bool whole_line = false;  // faces_near(): whatever meets the line is wanted
+
+    // Ray n of `count`, of id r, comes to an item's box.
+    void meet(const Item& item, RTCRayN* rays, unsigned count, unsigned n,
+              unsigned r) const {
+      if (ends && (item.face == ends[r].face_a || item.face == ends[r].face_b)) return;
+      const Passage passage =
+          whole_line ? certify(lines[r], item).line : segment_passage(lines[r], item);
+      if (passage == Passage::Misses) return;
+      if (passage == Passage::Crosses && !whole_line) {
+        RTCRayN_tfar(rays, count, n) = -std::numeric_limits<float>::infinity();
+      } else {
+        faces[r].push_back(item.face);
+      }
+    }
+
     // nearest(): +1 past b, -1 before a; the ray's range; the answer.
     int beyond = 0;
     double t0 = 0, t1 = 1, t = 0;
@@ -372,22 +387,13 @@ void OcclusionIndex::Impl::build() {
   rtcSetGeometryOccludedFunction(geometry, [](const RTCOccludedFunctionNArguments* args) {
     const auto& query = *reinterpret_cast<const Query*>(args->context);
     const Item& item = query.items[args->primID];
+    if (args->N == 1) {  // the usual case: its places in memory are constants
+      query.meet(item, args->ray, 1, 0, 0);
+      return;
+    }
     for (unsigned n = 0; n < args->N; ++n) {
       if (!args->valid[n]) continue;
-      const unsigned r = RTCRayN_id(args->ray, args->N, n);
-      if (query.ends &&
-          (item.face == query.ends[r].face_a || item.face == query.ends[r].face_b)) {
-        continue;
-      }
-      const Line& line = query.lines[r];
-      const Passage passage =
-          query.whole_line ? certify(line, item).line : segment_passage(line, item);
-      if (passage == Passage::Misses) continue;
-      if (passage == Passage::Crosses && !query.whole_line) {
-        RTCRayN_tfar(args->ray, args->N, n) = -std::numeric_limits<float>::infinity();
-      } else {
-        query.faces[r].push_back(item.face);
-      }
+      query.meet(item, args->ray, args->N, n, RTCRayN_id(args->ray, args->N, n));
     }
   });
   rtcSetGeometryIntersectFunction(

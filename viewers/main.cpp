@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
   commands.emplace_back("stab", add_stab_command(app));
   commands.emplace_back("transversals", add_transversals_command(app));
   commands.emplace_back("view", add_view_command(app));
+  commands.emplace_back("visible", add_visible_command(app));
   try {
     app.parse(argc, argv);
     for (const auto& [name, run] : commands) {

@@ -484,4 +484,57 @@ TEST_F(Questions, BadPortalsAreRefusedByElement) {
           "portals[1]: not convex");
 }
 
+constexpr const char* kHalfScreens = R"({"instances": [
+    {"a": [[0,0,0],[1,0,0],[0,1,0]], "b": [[0,0,1],[1,0,1],[0,1,1]],
+     "occluders": [[[-9,-9,0.5],[0.25,-9,0.5],[0.25,9,0.5],[-9,9,0.5]],
+                   [[RIGHT,-9,0.5],[9,-9,0.5],[9,9,0.5],[RIGHT,9,0.5]]]}]})";
+
+std::string half_screens(const std::string& right) {
+  std::string text = kHalfScreens;
+  for (auto at = text.find("RIGHT"); at != std::string::npos; at = text.find("RIGHT")) {
+    text.replace(at, 5, right);
+  }
+  return text;
+}
+
+TEST_F(Questions, VisibleThroughASlitButNotThroughASeam) {
+  const json seam = answer({"visible", file(half_screens("0.25")), "--check"}, 0);
+  EXPECT_EQ(seam.at("answers").at(0).at("visible"), false);
+  EXPECT_EQ(seam.at("answers").at(0).at("cover").at("checked"), true);
+  EXPECT_TRUE(seam.at("answers").at(0).at("witness").is_null());
+  const json slit = answer({"visible", file(half_screens("0.2500000001"))}, 0);
+  EXPECT_EQ(slit.at("answers").at(0).at("visible"), true);
+  EXPECT_EQ(slit.at("answers").at(0).at("witness").size(), 2U);
+  EXPECT_TRUE(slit.at("answers").at(0).contains("milliseconds"));
+  EXPECT_EQ(slit.at("scene").at("instances"), 1);
+}
+
+TEST_F(Questions, VisibleBetweenGroups) {
+  const json j = answer({"visible", kRoom, "floor", "table_top"}, 0);
+  EXPECT_EQ(j.at("visible"), true);
+  EXPECT_EQ(j.at("faces").size(), 2U);
+  const json all =
+      answer({"visible", kRoom, "table_top", "wall_right", "--all-pairs", "--check"}, 0);
+  EXPECT_EQ(all.at("pairs").size(), 36U);
+  EXPECT_EQ(all.at("complete"), true);
+  const json sampled = answer(
+      {"visible", kRoom, "floor", "ceiling", "--method", "sampled", "--rays", "1000"}, 0);
+  EXPECT_EQ(sampled.at("rays"), 1000);
+  expect_refused({"visible", kRoom, "floor", "nowhere"}, "no group named 'nowhere'");
+  expect_refused({"visible", kRoom, "floor"}, "name two groups");
+}
+
+TEST_F(Questions, BadInstancesAreRefusedByElement) {
+  const auto refused = [this](const std::string& instance, const std::string& mentioned) {
+    expect_refused({"visible", file(R"({"instances": [)" + instance + "]}")}, mentioned);
+  };
+  refused(R"({"a": [[0,0,0],[1,0,0]], "b": []})", "instances[0].a: expected at least 3");
+  refused(R"({"a": [[0,0,0],[1,0,0],[2,0,0]], "b": [[0,0,1],[1,0,1],[0,1,1]]})",
+          "instances[0].a: has no area");
+  refused(R"({"a": [[0,0,0],[1,0,0],[0,1,0]], "b": [[0,0,1],[1,0,1],[0,1,1]],
+              "occluders": [[[0,0,0],[4,0,0],[1,1,0],[0,4,0]]]})",
+          "instances[0].occluders[0]: not convex");
+  refused(R"({"a": [[0,0,0],[1,0,0],[0,1,0]]})", "instances[0]");
+}
+
 }  // namespace

@@ -1,0 +1,69 @@
+// Which faces of a scene see each other, exactly.
+//
+// The same decision as polygon_visibility, with all faces of a scene as occluders.  They
+// are looked up only where a segment runs that nothing known blocks, so that the cost
+// follows what hides, not the size of the scene.
+
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "linespace/polygon_visibility.h"
+#include "linespace/scene.h"
+
+namespace sightline {
+
+/// The answer for face a and face b.
+struct FacePairAnswer {
+  int a, b;
+  VisibilityAnswer answer;
+  /// The faces that were looked at as occluders: with the question of these alone,
+  /// check_cover verifies a cover.
+  std::vector<int> occluders;
+};
+
+/// The answer for two sets of faces.
+struct GroupAnswer {
+  /// Visible when some pair is, Hidden when all are hidden.
+  Verdict verdict = Verdict::Undecided;
+  /// The first visible pair in order of the given faces, or nothing.
+  std::optional<FacePairAnswer> visible;
+  /// Every pair in order of the given faces, when asked for.
+  std::vector<FacePairAnswer> pairs;
+  std::int64_t pairs_hidden = 0, pairs_undecided = 0;
+  VisibilityCost cost;
+  StageCounts predicates;
+};
+
+/// Keeps a reference to the scene.  Immutable; safe to ask from several threads.
+class FaceVisibility {
+ public:
+  explicit FaceVisibility(const Scene& scene);
+  ~FaceVisibility();
+  FaceVisibility(FaceVisibility&&) noexcept;
+
+  /// Does some segment from a's interior to b's interior miss every other face?  Faces in
+  /// a's plane do not block at a, nor those in b's plane at b: two faces back to back
+  /// make a sheet that sees to both sides.  Faces in one plane do not see each other.
+  /// Throws InvalidInput for a face that the scene lacks.
+  [[nodiscard]] FacePairAnswer between(int a, int b,
+                                       const VisibilityRequest& request = {}) const;
+
+  /// Whether some face of `as` sees some face of `bs`; with all_pairs every pair is
+  /// decided and listed.  On `request.threads` threads; the answer is the same for any
+  /// number.
+  [[nodiscard]] GroupAnswer between(std::span<const int> as, std::span<const int> bs,
+                                    bool all_pairs,
+                                    const VisibilityRequest& request = {}) const;
+
+  /// The question that a pair's cover answers.
+  [[nodiscard]] VisibilityQuestion question_of(const FacePairAnswer& pair) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sightline

@@ -1,0 +1,153 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "linespace/occluder_source_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+// Below this, looking at every box is cheaper than building a tree.
+constexpr std::size_t kManyPolygons = 256;
+
+double area_of(const Polygon& p) {
+  Point normal = Point::Zero();
+  for (std::size_t i = 2; i < p.size(); ++i) {
+    normal += (p[i - 1] - p[0]).cross(p[i] - p[0]);
+  }
+  return normal.norm() / 2;
+}
+
+// The segment's ends as doubles, and how far these may be from the exact ones.
+struct RoundedSegment {
+  Point p, q;
+  double slack;
+};
+
+Point rounded(const Triangle& t, const Weights& w) {
+  return w[0] * t[0] + w[1] * t[1] + w[2] * t[2];
+}
+
+// A weighted mean passes 5 roundings of numbers up to the largest coordinate.
+RoundedSegment rounded(const SightSpace& space, const SightPoint& s) {
+  double largest = 0;
+  for (const Triangle* t : {&space.a(), &space.b()}) {
+    for (const Point& x : *t) largest = std::max(largest, x.cwiseAbs().maxCoeff());
+  }
+  return {rounded(space.a(), s.alpha), rounded(space.b(), s.beta), 8 * kUnit * largest};
+}
+
+// Slabs, widened by the slack and the roundings of the divisions: never wrong with "no".
+bool may_meet(const RoundedSegment& s, const Box& box) {
+  double low = 0, high = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double from = s.p[axis], step = s.q[axis] - from;
+    const double wide =
+        2 * s.slack + 8 * kUnit * (std::abs(box.min[axis]) + std::abs(box.max[axis]));
+    const double near = box.min[axis] - wide - from, far = box.max[axis] + wide - from;
+    if (std::abs(step) <= wide) {
+      if (near > wide || far < -wide) return false;
+      continue;
+    }
+    double enter = near / step, leave = far / step;
+    if (step < 0) std::swap(enter, leave);
+    low = std::max(low, enter - 8 * kUnit * std::abs(enter));
+    high = std::min(high, leave + 8 * kUnit * std::abs(leave));
+    if (low > high) return false;
+  }
+  return true;
+}
+
+// Both ends are certainly on one side of the polygon's plane, or the line certainly
+// passes outside one of its sides.  Moving p and q by the slack changes a determinant of
+// differences up to `size` by at most 12 * slack * size^2 and terms of higher order.
+bool certainly_misses(const RoundedSegment& s, const Polygon& polygon) {
+  double size = (s.q - s.p).cwiseAbs().maxCoeff() + s.slack;
+  for (const Point& x : polygon) {
+    size = std::max(
+        {size, (x - s.p).cwiseAbs().maxCoeff(), (x - s.q).cwiseAbs().maxCoeff()});
+  }
+  const double moved = 16 * s.slack * size * size;
+  const auto sign = [&](const BoundedValue& v) {
+    return std::abs(v.value) > v.error + moved ? (v.value > 0 ? 1 : -1) : 0;
+  };
+  const int at_p = sign(orient3d_value(polygon[0], polygon[1], polygon[2], s.p));
+  const int at_q = sign(orient3d_value(polygon[0], polygon[1], polygon[2], s.q));
+  if (at_p != 0 && at_p == at_q) return true;
+  if (at_p == 0 || at_q == 0) return false;
+  const std::size_t n = polygon.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    // Inside is -at_p, as in SightSpace::add.
+    if (sign(orient3d_value(s.p, s.q, polygon[i], polygon[(i + 1) % n])) == at_p) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+OccluderSet::OccluderSet(std::vector<Polygon> polygons) : polygons_(std::move(polygons)) {
+  boxes_.reserve(polygons_.size());
+  for (const Polygon& p : polygons_) boxes_.push_back(box_of(p));
+  if (polygons_.size() > kManyPolygons) tree_.emplace(boxes_);
+}
+
+std::vector<int> OccluderSet::near(const SightSpace& space, const SightPoint& s) const {
+  const RoundedSegment segment = rounded(space, s);
+  std::vector<int> found;
+  const auto visit = [&](std::size_t i) {
+    if (!certainly_misses(segment, polygons_[i])) found.push_back(static_cast<int>(i));
+  };
+  if (tree_) {
+    tree_->traverse([&](const Box& box) { return may_meet(segment, box); }, visit);
+  } else {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      if (may_meet(segment, boxes_[i])) visit(i);
+    }
+  }
+  return found;
+}
+
+OccluderSource::OccluderSource(const OccluderSet& set, Numbers numbers,
+                               std::function<bool(int)> skip)
+    : set_(set), numbers_(numbers), skip_(std::move(skip)) {}
+
+void OccluderSource::start(SightSpace& space, std::span<const int> known) {
+  in_space_.assign(set_.polygons().size(), false);
+  const std::vector<int> found = found_;
+  for (const std::span<const int> list : {known, std::span<const int>(found)}) {
+    for (const int i : list) {
+      if (!in_space_[i] && !(skip_ && skip_(i))) add(space, i);
+    }
+  }
+}
+
+void OccluderSource::add(SightSpace& space, int i) {
+  in_space_[i] = true;
+  const auto [entry, is_new] = number_.try_emplace(i, static_cast<int>(found_.size()));
+  if (is_new) found_.push_back(i);
+  const int number = numbers_ == Numbers::AsInSet ? i : entry->second;
+  space.add(number, {number, set_[i]});
+}
+
+bool OccluderSource::is_free(SightSpace& space, const SightPoint& s) {
+  std::vector<std::pair<double, int>> candidates;
+  for (const int i : set_.near(space, s)) {
+    if (!in_space_[i] && !(skip_ && skip_(i))) {
+      candidates.emplace_back(-area_of(set_[i]), i);
+    }
+  }
+  // Large ones first: they hide most.
+  std::ranges::sort(candidates);
+  for (const auto& [area, i] : candidates) {
+    const std::size_t before = space.blockers().size();
+    add(space, i);
+    for (std::size_t b = before; b < space.blockers().size(); ++b) {
+      if (space.blocks(space.blockers()[b], s.alpha, s.beta)) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace sightline::internal

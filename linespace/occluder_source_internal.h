@@ -1,0 +1,61 @@
+// Occluders for a search, looked up only where a segment runs that nothing known blocks.
+
+#pragma once
+
+#include <functional>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "linespace/bvh_internal.h"
+#include "linespace/cover_search_internal.h"
+#include "linespace/polygon_visibility.h"
+#include "linespace/sight_space_internal.h"
+
+namespace sightline::internal {
+
+/// Convex planar polygons with boxes, and a tree over them when they are many.
+class OccluderSet {
+ public:
+  explicit OccluderSet(std::vector<Polygon> polygons);
+  [[nodiscard]] std::span<const Polygon> polygons() const { return polygons_; }
+  [[nodiscard]] const Polygon& operator[](int i) const { return polygons_[i]; }
+
+  /// Polygons that the segment may meet: all that it does, and a few more.  Rounded
+  /// arithmetic with bounds.
+  [[nodiscard]] std::vector<int> near(const SightSpace& space, const SightPoint& s) const;
+
+ private:
+  std::vector<Polygon> polygons_;
+  std::vector<Box> boxes_;
+  std::optional<Bvh> tree_;
+};
+
+/// Feeds a SightSpace from an OccluderSet.
+class OccluderSource {
+ public:
+  /// How pieces are numbered in the space: as in the set, or as they were found.
+  enum class Numbers { AsInSet, AsFound };
+  /// skip(i): polygon i does not count.  May be null.
+  OccluderSource(const OccluderSet& set, Numbers numbers, std::function<bool(int)> skip);
+
+  /// Adds what is known already: `known` first, then what other spaces found.
+  void start(SightSpace& space, std::span<const int> known = {});
+  /// True when no polygon of the set blocks the segment; otherwise one was added that
+  /// does.
+  bool is_free(SightSpace& space, const SightPoint& s);
+  /// In order of their numbers AsFound.
+  [[nodiscard]] const std::vector<int>& found() const { return found_; }
+
+ private:
+  void add(SightSpace& space, int i);
+
+  const OccluderSet& set_;
+  Numbers numbers_;
+  std::function<bool(int)> skip_;
+  std::vector<int> found_;
+  std::unordered_map<int, int> number_;
+  std::vector<bool> in_space_;
+};
+
+}  // namespace sightline::internal

@@ -1,0 +1,154 @@
+// The segments between two triangles, and what blocks them, as bilinear functions.
+//
+// A segment from p = sum_j alpha_j a_j to q = sum_k beta_k b_k is a point (alpha, beta)
+// of a product of two triangles, the *sight space*.  Whatever decides whether it is
+// blocked is a sign of a function that is linear in p and linear in q: the side of an
+// edge, the side of a plane on which p or q lies.  Such a *form* is known by its values
+// at the nine corner pairs (a_j, b_k); its value elsewhere is their mean with weights
+// alpha_j beta_k, and where the nine have one sign, so has all of the sight space.  A
+// closed occluder blocks where a few forms, its *blocker*, all have given signs or
+// vanish.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <unordered_map>
+#include <vector>
+
+#include "linespace/predicates.h"
+#include "linespace/rational_internal.h"
+#include "linespace/scene.h"
+
+namespace sightline::internal {
+
+using Triangle = std::array<Point, 3>;
+/// Weights of a point of a triangle: not negative, sum 1.
+using Weights = std::array<double, 3>;
+
+/// What a form measures; occluder corners are counted within one convex piece.
+enum class FormKind : std::uint8_t {
+  EdgeSide,   ///< orient3d(p, q, corner, next corner)
+  FromPlane,  ///< orient3d(first three corners, p)
+  ToPlane,    ///< orient3d(first three corners, q)
+  // The rest only where a, b and the occluder lie in one plane, with an apex off it:
+  CornerSide,  ///< orient3d(p, q, corner, apex)
+  FromEdge,    ///< orient3d(corner, next corner, apex, p)
+  ToEdge       ///< orient3d(corner, next corner, apex, q)
+};
+
+struct FormName {
+  FormKind kind;
+  int piece;
+  int corner;
+};
+
+/// The points that FormKind's comments list: what a form is made of.  An edge is listed
+/// from its lexicographically smaller end.
+using FormPoints = std::array<Point, 3>;
+
+/// Which of the two points a form depends on.
+enum class Dependence : std::uint8_t { Both, From, To };
+
+/// Values at the corner pairs (j, k), at position 3 j + k, each off by at most its error;
+/// all times a power of two that brings the largest into [1/2, 1).
+struct CornerValues {
+  std::array<double, 9> value{};
+  std::array<double, 9> error{};
+
+  /// The value is certainly 0 or of that sign at each of the nine.
+  [[nodiscard]] bool certainly(int sign) const;
+};
+
+struct Form {
+  FormName name;
+  Dependence depends = Dependence::Both;
+  CornerValues at;
+  /// 1, -1: at all corners 0 or of that sign, exactly; 2: all exactly 0; 0: neither.
+  std::int8_t constant = 0;
+};
+
+/// One way in which an occluder blocks: where sign * form >= 0 for all of its parts, see
+/// SightSpace::parts.
+struct Blocker {
+  struct Part {
+    int form;
+    std::int8_t sign;
+  };
+  int piece;
+  int first, count;  ///< of its parts
+};
+
+/// A convex planar occluder, at least three corners, the first three not collinear.
+struct Piece {
+  int occluder;
+  std::vector<Point> corners;
+};
+
+/// Tables for one pair of triangles.  Occluders can be added as they are found.
+class SightSpace {
+ public:
+  /// The triangles must have area.
+  SightSpace(const Triangle& a, const Triangle& b);
+
+  /// Adds all ways in which the piece blocks; those that block no open set of segments
+  /// are left out.
+  void add(int number, const Piece& piece);
+
+  [[nodiscard]] const Triangle& a() const { return a_; }
+  [[nodiscard]] const Triangle& b() const { return b_; }
+  [[nodiscard]] std::span<const Form> forms() const { return forms_; }
+  [[nodiscard]] std::span<const Blocker> blockers() const { return blockers_; }
+  /// Only forms that are not constant; none: the blocker blocks everything.
+  [[nodiscard]] std::span<const Blocker::Part> parts(const Blocker& blocker) const {
+    return {parts_.data() + blocker.first, static_cast<std::size_t>(blocker.count)};
+  }
+
+  /// CornerValues are the form's values times 2 to the minus this.
+  [[nodiscard]] int exponent(int form) const { return exponents_[form]; }
+
+  /// Exact corner values of a form of this space, on the scale of CornerValues.
+  [[nodiscard]] std::array<Rational, 9> exact(int form) const;
+
+  /// Whether the blocker blocks the segment, exactly.
+  [[nodiscard]] bool blocks(const Blocker& blocker, const Weights& alpha,
+                            const Weights& beta) const;
+
+ private:
+  // A form is found again by the points it is made of, whichever piece names it.
+  struct Key {
+    std::array<double, 7> numbers;
+    bool operator==(const Key&) const = default;
+  };
+  struct KeyHash {
+    std::size_t operator()(const Key& key) const;
+  };
+
+  int form(const FormName& name, const Piece& piece, bool* reversed);
+  int new_form(const FormName& name, const FormPoints& x);
+  void add_blocker(int number, std::span<const Blocker::Part> parts);
+  void add_coplanar(int number, const Piece& piece);
+
+  Triangle a_, b_;
+  Point apex_;  // off the common plane, if there is one
+  std::vector<Form> forms_;
+  std::vector<int> exponents_;  // of the scale, per form
+  std::vector<FormPoints> points_;
+  std::vector<Blocker> blockers_;
+  std::vector<Blocker::Part> parts_;
+  std::unordered_map<Key, int, KeyHash> edge_forms_;
+};
+
+/// A point off the plane of the triangle, with coordinates near its own.
+[[nodiscard]] Point apex_off(const Triangle& triangle);
+
+/// orient3d's determinant, exactly.
+[[nodiscard]] Rational exact_orient3d(const ExactPoint& a, const ExactPoint& b,
+                                      const ExactPoint& c, const ExactPoint& d);
+
+/// The value of a form in rationals.
+[[nodiscard]] Rational exact_form_value(FormKind kind, const FormPoints& points,
+                                        const ExactPoint& p, const ExactPoint& q);
+
+}  // namespace sightline::internal

@@ -1,0 +1,136 @@
+#include "linespace/face_visibility.h"
+
+#include <gtest/gtest.h>
+
+#include "linespace/visibility_cover.h"
+#include "tests/support/generators.h"
+
+namespace sightline::testing {
+namespace {
+
+std::vector<int> faces_of(const Scene& scene, const std::string& object) {
+  return scene.faces_named(object);
+}
+
+Verdict between(const Scene& scene, const std::string& a, const std::string& b) {
+  const FaceVisibility visibility(scene);
+  return visibility.between(faces_of(scene, a), faces_of(scene, b), false).verdict;
+}
+
+// Two boxes, and a wall between them that may have a window.
+Scene two_boxes(const std::vector<AlignedBox>& wall) {
+  std::vector<AlignedBox> boxes{{{0, 0, 0}, {1, 1, 1}}, {{4, 0, 0}, {5, 1, 1}}};
+  boxes.insert(boxes.end(), wall.begin(), wall.end());
+  return Scene(boxes_soup(boxes));
+}
+
+TEST(FaceVisibility, AWallHidesAndAWindowShows) {
+  EXPECT_EQ(between(two_boxes({}), "box0", "box1"), Verdict::Visible);
+  EXPECT_EQ(between(two_boxes({{{2, -9, -9}, {3, 9, 9}}}), "box0", "box1"),
+            Verdict::Hidden);
+  // Two walls that touch; then with a slit of 2^-30.
+  EXPECT_EQ(between(two_boxes({{{2, -9, -9}, {3, 0.5, 9}}, {{2, 0.5, -9}, {3, 9, 9}}}),
+                    "box0", "box1"),
+            Verdict::Hidden);
+  EXPECT_EQ(between(two_boxes({{{2, -9, -9}, {3, 0.5, 9}},
+                               {{2, 0.5 + 0x1p-30, -9}, {3, 9, 9}}}),
+                    "box0", "box1"),
+            Verdict::Visible);
+}
+
+TEST(FaceVisibility, FacesOfABoxSeeEachOtherInside) {
+  const Scene scene = two_boxes({});
+  const FaceVisibility visibility(scene);
+  // Faces are walls that see to both sides.
+  const std::vector<int> faces = faces_of(scene, "box0");
+  for (const int a : faces) {
+    for (const int b : faces) {
+      const Verdict expected = a == b ? Verdict::Hidden : Verdict::Visible;
+      EXPECT_EQ(visibility.between(a, b).answer.verdict, expected) << a << " " << b;
+    }
+  }
+}
+
+TEST(FaceVisibility, AllPairsAgreeWithAskingWithAllFacesAsOccluders) {
+  std::vector<AlignedBox> boxes;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) {
+      const double x = 2.0 * i, y = 2.0 * j;
+      boxes.push_back({{x, y, 0}, {x + 1 + 0.5 * (i % 2), y + 1, 1.0 + j}});
+    }
+  }
+  const Scene scene(boxes_soup(boxes));
+  const FaceVisibility visibility(scene);
+  const std::vector<int> as = faces_of(scene, scene.objects()[0].name);
+  const std::vector<int> bs = faces_of(scene, scene.objects()[8].name);
+  VisibilityRequest request;
+  request.keep_cover = true;
+  const GroupAnswer group = visibility.between(as, bs, true, request);
+  ASSERT_EQ(group.pairs.size(), as.size() * bs.size());
+  int hidden = 0;
+  for (const FacePairAnswer& pair : group.pairs) {
+    VisibilityQuestion whole = visibility.question_of(pair);
+    const VisibilityQuestion used = whole;
+    whole.occluders.clear();
+    for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
+      const auto in_plane_of = [&](int end) {
+        const auto e = scene.face_points(end);
+        for (const int p : scene.face_points(f)) {
+          if (orient3d(scene.point(e[0]), scene.point(e[1]), scene.point(e[2]),
+                       scene.point(p)) != Sign::Zero)
+            return false;
+        }
+        return true;
+      };
+      if (in_plane_of(pair.a) || in_plane_of(pair.b)) continue;
+      Polygon& polygon = whole.occluders.emplace_back();
+      for (const int p : scene.face_points(f)) polygon.push_back(scene.point(p));
+    }
+    EXPECT_EQ(polygon_visibility(whole).verdict, pair.answer.verdict)
+        << pair.a << " " << pair.b;
+    if (pair.answer.cover) {
+      ++hidden;
+      EXPECT_EQ(check_cover(used, *pair.answer.cover), std::nullopt);
+    }
+  }
+  EXPECT_GT(hidden, 0);
+}
+
+TEST(FaceVisibility, AnswerDoesNotDependOnThreads) {
+  std::vector<AlignedBox> boxes;
+  for (int i = 0; i < 20; ++i) {
+    const double x = 1.5 * (i % 5), y = 1.5 * (i / 5);
+    boxes.push_back({{x, y, 0}, {x + 1, y + 1, 1.0 + i % 3}});
+  }
+  const Scene scene(boxes_soup(boxes));
+  const FaceVisibility visibility(scene);
+  const std::vector<int> as = faces_of(scene, "box0");
+  const std::vector<int> bs = faces_of(scene, "box19");
+  VisibilityRequest one;
+  one.threads = 1;
+  VisibilityRequest two;
+  two.threads = 2;
+  for (const bool all : {false, true}) {
+    const GroupAnswer x = visibility.between(as, bs, all, one);
+    const GroupAnswer y = visibility.between(as, bs, all, two);
+    EXPECT_EQ(x.verdict, y.verdict);
+    EXPECT_EQ(x.pairs_hidden, y.pairs_hidden);
+    EXPECT_EQ(x.cost.cells, y.cost.cells);
+    ASSERT_EQ(x.visible.has_value(), y.visible.has_value());
+    if (x.visible) {
+      EXPECT_EQ(x.visible->a, y.visible->a);
+      EXPECT_EQ((*x.visible->answer.witness)[0].exact,
+                (*y.visible->answer.witness)[0].exact);
+    }
+  }
+}
+
+TEST(FaceVisibility, RefusesFacesThatAreNotThere) {
+  const Scene scene = two_boxes({});
+  const FaceVisibility visibility(scene);
+  EXPECT_THROW((void)visibility.between(0, 99), InvalidInput);
+  EXPECT_THROW((void)visibility.between(-1, 0), InvalidInput);
+}
+
+}  // namespace
+}  // namespace sightline::testing

@@ -1,0 +1,336 @@
+// `sightline visible`: do two polygons, or two groups of a scene, see each other?
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "linespace/face_visibility.h"
+#include "linespace/mesh_io.h"
+#include "linespace/polygon_visibility.h"
+#include "linespace/visibility_cover.h"
+#include "linespace/visibility_estimate.h"
+#include "viewers/command_line.h"
+#include "viewers/json_input.h"
+#include "viewers/vtk_export.h"
+
+namespace sightline::viewers {
+namespace {
+
+constexpr std::int64_t kEstimateRays = 10'000;
+
+struct VisibleOptions : CommonOptions {
+  std::string a, b;
+  std::string method = "exact";
+  double budget = std::numeric_limits<double>::infinity();
+  std::int64_t rays = 0;  ///< 0: what the method takes unasked
+  std::uint64_t seed = 1;
+  bool check = false;
+  bool all_pairs = false;
+};
+
+// A number where a double is exact, else "p/q".
+Json position_json(const ExactPosition& p) {
+  Json j = Json::array();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (p.is_double[axis]) {
+      j.push_back(p.nearest[axis]);
+    } else {
+      j.push_back(p.exact[axis]);
+    }
+  }
+  return j;
+}
+
+Json witness_json(const VisibilityAnswer& answer) {
+  if (!answer.witness) return nullptr;
+  return Json::array(
+      {position_json((*answer.witness)[0]), position_json((*answer.witness)[1])});
+}
+
+Json verdict_json(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::Visible:
+      return true;
+    case Verdict::Hidden:
+      return false;
+    default:
+      return nullptr;
+  }
+}
+
+Json cost_json(const VisibilityCost& cost) {
+  return {{"samples", cost.samples},
+          {"cells", cost.cells},
+          {"games", cost.games},
+          {"exact_games", cost.exact_games},
+          {"halvings", cost.halvings}};
+}
+
+VisibilityRequest request_of(const VisibleOptions& options, const Meter& meter,
+                             const Interruption& interruption) {
+  VisibilityRequest request;
+  request.precision = options.precision;
+  request.threads = options.threads;
+  request.budget_seconds = options.budget - meter.seconds();
+  request.stop = interruption.token();
+  request.seed = options.seed;
+  request.keep_cover = options.check;
+  request.samples_only = options.method == "sampled";
+  if (options.rays > 0) {
+    request.samples = static_cast<int>(std::min<std::int64_t>(options.rays, 1 << 30));
+  }
+  return request;
+}
+
+// "checked" or what is wrong, for an answer with a cover.
+Json checked_json(const VisibilityQuestion& question, const VisibilityAnswer& answer) {
+  if (!answer.cover) return nullptr;
+  const auto wrong = check_cover(question, *answer.cover);
+  if (wrong) throw std::logic_error("a cover does not hold: " + *wrong);
+  return {{"leaves", answer.cover->leaves()}, {"checked", true}};
+}
+
+// ---- questions from a file
+// ---------------------------------------------------------------
+
+std::vector<VisibilityQuestion> read_questions(const std::string& name) {
+  const JsonInput file(name);
+  std::vector<VisibilityQuestion> questions;
+  for (const JsonInput& instance : file.at("instances").items()) {
+    VisibilityQuestion& q = questions.emplace_back();
+    q.a = instance.at("a").points(3);
+    q.b = instance.at("b").points(3);
+    if (!instance.has("occluders")) continue;
+    for (const JsonInput& occluder : instance.at("occluders").items()) {
+      q.occluders.push_back(occluder.points(1));
+    }
+  }
+  return questions;
+}
+
+ExitStatus run_questions(const VisibleOptions& options) {
+  const Interruption interruption;
+  const Meter meter;
+  const std::vector<VisibilityQuestion> questions = read_questions(options.scene);
+  Json answers = Json::array();
+  VisibilityCost cost;
+  std::size_t counts[3] = {};
+  std::size_t occluders = 0;
+  {
+    Progress progress("visible");
+    const auto tell = progress.callback();
+    for (std::size_t i = 0; i < questions.size(); ++i) {
+      occluders += questions[i].occluders.size();
+      const Meter one;
+      VisibilityAnswer answer;
+      try {
+        answer =
+            polygon_visibility(questions[i], request_of(options, meter, interruption));
+      } catch (const InvalidInput& error) {
+        throw InvalidInput(
+            fmt::format("{}: instances[{}].{}", options.scene, i, error.what()));
+      }
+      const double milliseconds = 1000 * one.seconds();
+      Json j{{"visible", verdict_json(answer.verdict)},
+             {"witness", witness_json(answer)},
+             {"milliseconds", milliseconds}};
+      if (options.check && answer.cover) j["cover"] = checked_json(questions[i], answer);
+      j["cost"] = cost_json(answer.cost);
+      answers.push_back(std::move(j));
+      cost += answer.cost;
+      ++counts[static_cast<int>(answer.verdict)];
+      if (tell) tell(static_cast<double>(i + 1) / static_cast<double>(questions.size()));
+    }
+  }
+  const bool complete = counts[static_cast<int>(Verdict::Undecided)] == 0;
+  Json answer = answer_head(
+      "visible", Json{{"instances", questions.size()}, {"occluders", occluders}},
+      complete, {meter.seconds(), meter.predicates()});
+  answer["answers"] = std::move(answers);
+  answer["cost"] = cost_json(cost);
+  write_answer(options, answer);
+  if (options.may_print()) {
+    std::cout << fmt::format("{}: {} visible, {} hidden, {} undecided\n  {:.3f} s\n",
+                             options.scene, counts[0], counts[1], counts[2],
+                             answer["seconds"].get<double>());
+  }
+  return complete ? kAnswered : kPartial;
+}
+
+// ---- two groups of a scene
+// ---------------------------------------------------------------
+
+Json pair_json(const Scene& scene, const FaceVisibility& visibility,
+               const FacePairAnswer& pair, bool check) {
+  Json j{{"faces", {scene.faces()[pair.a].source, scene.faces()[pair.b].source}},
+         {"visible", verdict_json(pair.answer.verdict)},
+         {"witness", witness_json(pair.answer)},
+         {"occluders_used", pair.occluders.size()}};
+  if (check && pair.answer.cover) {
+    j["cover"] = checked_json(visibility.question_of(pair), pair.answer);
+  }
+  return j;
+}
+
+ExitStatus run_sampled(const VisibleOptions& options) {
+  const Interruption interruption;
+  const Meter meter;
+  const Scene scene(read_mesh(options.scene));
+  const std::vector<int> as = scene.faces_named(options.a);
+  const std::vector<int> bs = scene.faces_named(options.b);
+  const OcclusionIndex index(scene);
+  const VisibilityEstimate estimate = estimate_visibility(
+      index, as, bs, {options.rays > 0 ? options.rays : kEstimateRays, options.seed},
+      request_of(options, meter, interruption));
+  Json answer = answer_head("visible", scene, estimate.complete,
+                            {meter.seconds(), meter.predicates()});
+  answer["method"] = "sampled";
+  answer["groups"] = {options.a, options.b};
+  answer["rays"] = estimate.samples;
+  answer["free"] = estimate.free;
+  answer["fraction"] = estimate.fraction.value;
+  answer["standard_error"] = estimate.fraction.standard_error;
+  answer["interval"] = estimate.interval;
+  write_answer(options, answer);
+  if (options.may_print()) {
+    std::cout << fmt::format(
+        "{}: {} of {} random segments from {} to {} are free: {:.4g}, 95 % between "
+        "{:.4g} and {:.4g}\n  an estimate, no proof; {:.3f} s\n",
+        options.scene, estimate.free, estimate.samples, options.a, options.b,
+        estimate.fraction.value, estimate.interval[0], estimate.interval[1],
+        answer["seconds"].get<double>());
+  }
+  return estimate.complete ? kAnswered : kPartial;
+}
+
+void write_witnesses(const VisibleOptions& options, const Scene& scene,
+                     const GroupAnswer& group) {
+  LineBlock block{"witnesses", "VV", {}};
+  const auto add = [&](const FacePairAnswer& pair) {
+    if (!pair.answer.witness) return;
+    const auto& [from, to] = *pair.answer.witness;
+    block.pieces.push_back({from.nearest, to.nearest,
+                            fmt::format("{} {}", scene.faces()[pair.a].source,
+                                        scene.faces()[pair.b].source)});
+  };
+  for (const FacePairAnswer& pair : group.pairs) add(pair);
+  if (group.pairs.empty() && group.visible) add(*group.visible);
+  write_vtk(options.vtk, scene, {});
+  write_vtk_lines(options.vtk, {block});
+}
+
+ExitStatus run_groups(const VisibleOptions& options) {
+  if (options.method == "sampled") return run_sampled(options);
+  const Interruption interruption;
+  const Meter meter;
+  const Scene scene(read_mesh(options.scene));
+  const std::vector<int> as = scene.faces_named(options.a);
+  const std::vector<int> bs = scene.faces_named(options.b);
+  const FaceVisibility visibility(scene);
+  GroupAnswer group;
+  {
+    Progress progress("visible");
+    VisibilityRequest request = request_of(options, meter, interruption);
+    request.progress = progress.callback();
+    group = visibility.between(as, bs, options.all_pairs, request);
+  }
+  const bool complete = options.all_pairs ? group.pairs_undecided == 0
+                                          : group.verdict != Verdict::Undecided;
+  Json answer = answer_head("visible", scene, complete,
+                            {meter.seconds(), meter.predicates() + group.predicates});
+  answer["method"] = "exact";
+  answer["groups"] = {options.a, options.b};
+  answer["visible"] = verdict_json(group.verdict);
+  answer["witness"] = group.visible ? witness_json(group.visible->answer) : Json(nullptr);
+  if (group.visible) {
+    answer["faces"] = {scene.faces()[group.visible->a].source,
+                       scene.faces()[group.visible->b].source};
+  }
+  answer["face_pairs"] = as.size() * bs.size();
+  answer["cost"] = cost_json(group.cost);
+  if (options.all_pairs) {
+    answer["pairs"] = Json::array();
+    for (const FacePairAnswer& pair : group.pairs) {
+      answer["pairs"].push_back(pair_json(scene, visibility, pair, options.check));
+    }
+  }
+  if (!options.vtk.empty()) write_witnesses(options, scene, group);
+  write_answer(options, answer);
+  if (options.may_print()) {
+    const char* verdict = group.verdict == Verdict::Visible  ? "visible"
+                          : group.verdict == Verdict::Hidden ? "hidden"
+                                                             : "undecided";
+    std::cout << fmt::format("{}: {} and {}: {}\n", options.scene, options.a, options.b,
+                             verdict);
+    if (group.visible) {
+      const auto& [from, to] = *group.visible->answer.witness;
+      std::cout << fmt::format(
+          "  for example from face {} at ({:g}, {:g}, {:g}) to face {} at ({:g}, {:g}, "
+          "{:g})\n",
+          answer["faces"][0].get<int>(), from.nearest.x(), from.nearest.y(),
+          from.nearest.z(), answer["faces"][1].get<int>(), to.nearest.x(), to.nearest.y(),
+          to.nearest.z());
+    }
+    std::cout << fmt::format("  {} pairs of faces, {:.3f} s\n", as.size() * bs.size(),
+                             answer["seconds"].get<double>());
+  }
+  return complete ? kAnswered : kPartial;
+}
+
+ExitStatus run(const VisibleOptions& options) {
+  if (options.a.empty() != options.b.empty()) {
+    throw UsageError("visible: name two groups of the scene, A and B, or none");
+  }
+  if (!options.a.empty()) return run_groups(options);
+  if (options.all_pairs || !options.vtk.empty()) {
+    throw UsageError("visible: --all-pairs and --vtk go with a scene and A B");
+  }
+  return run_questions(options);
+}
+
+}  // namespace
+
+Command add_visible_command(CLI::App& app) {
+  auto options = std::make_shared<VisibleOptions>();
+  CLI::App* command = app.add_subcommand(
+      "visible",
+      "do two polygons, or two groups of a scene, see each other; with a witness");
+  command
+      ->add_option(
+          "FILE", options->scene,
+          "without A and B: JSON, {\"instances\": [{\"a\": [[x,y,z],...], \"b\": "
+          "[...], \"occluders\": [[[x,y,z],...], ...]}, ...]}, convex polygons; "
+          "with A and B: a scene, as for the other commands")
+      ->required();
+  command->add_option("A", options->a,
+                      "group that looks: its name, or #i-j, faces i to j from 0");
+  command->add_option("B", options->b, "group that is looked at");
+  command
+      ->add_option("--method", options->method,
+                   "exact: decided, with a witness; sampled: random segments only, which "
+                   "prove nothing hidden: of a scene's groups, the share that is free "
+                   "(default exact)")
+      ->type_name("exact|sampled")
+      ->check(CLI::IsMember({"exact", "sampled"}).description(""));
+  command
+      ->add_option(
+          "--rays", options->rays,
+          "number of random segments: of --method sampled (default 10000 between "
+          "groups, 512 between polygons), or tried first by exact (512)")
+      ->type_name("N")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--seed", options->seed,
+                   "of the random segments that are tried (default 1)")
+      ->type_name("N");
+  command->add_flag("--all-pairs", options->all_pairs,
+                    "decide every pair of faces of A and B, and list them");
+  command->add_flag("--check", options->check,
+                    "verify the proof of each \"hidden\" by the independent checker");
+  add_budget_option(*command, options->budget);
+  add_common_options(*command, *options);
+  return [options] { return run(*options); };
+}
+
+}  // namespace sightline::viewers
