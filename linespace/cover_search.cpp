@@ -130,7 +130,8 @@ class Search {
   bool covered_by_one() {
     for (std::size_t b = 0; b < space_.blockers().size(); ++b) {
       if (space_.blockers()[b].count > 0) continue;
-      emit({CoverNode::Kind::Blocked, 0, static_cast<std::int32_t>(b), 0});
+      sign_.resize(space_.forms().size(), 0);
+      emit_blocked(static_cast<int>(b));
       return true;
     }
     return false;
@@ -476,31 +477,38 @@ class Search {
     return sum;
   }
 
-  // The same question in exact numbers, first for the rows that mattered in doubles.
+  // The same question in exact numbers: first for the rows that mattered in doubles;
+  // then, as long as the best gamma for these makes others fail, with those as well.
   bool exactly_empty(Domain& d, Game::Row& gamma) {
-    std::vector<int> rows;
+    std::vector<std::array<Rational, 9>> values;
+    std::vector<int> rows, others;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
-      if (game_.lambda()[r] != 0) rows.push_back(static_cast<int>(r));
+      values.push_back(exact_row(d, rows_[r]));
+      (game_.lambda()[r] != 0 ? rows : others).push_back(static_cast<int>(r));
     }
-    if (rows.size() < rows_.size() && exact_game(d, rows, gamma)) return true;
-    rows.clear();
-    for (std::size_t r = 0; r < rows_.size(); ++r) rows.push_back(static_cast<int>(r));
-    return exact_game(d, rows, gamma);
-  }
-
-  bool exact_game(Domain& d, const std::vector<int>& rows, Game::Row& gamma) {
-    if (rows.empty()) return false;
-    ++counts_.exact_games;
-    ExactGame game;
-    for (const int r : rows) game.add(exact_row(d, rows_[r]));
-    game.solve();
-    if (game.positive()) {
+    while (true) {
+      if (rows.empty()) rows.swap(others);
+      ++counts_.exact_games;
+      ExactGame game;
+      for (const int r : rows) game.add(values[r]);
+      game.solve();
+      if (!game.positive()) {
+        note_exactly_empty(rows, game.lambda());
+        return true;
+      }
       const ExactGame::Row exact = game.gamma();
-      for (int i = 0; i < 9; ++i) gamma[i] = static_cast<double>(exact[i]);
-      return false;
+      const auto failing = std::ranges::partition(others, [&](int r) {
+        Rational product = 0;
+        for (int i = 0; i < 9; ++i) product += exact[i] * values[r][i];
+        return product > 0;
+      });
+      if (failing.empty()) {
+        for (int i = 0; i < 9; ++i) gamma[i] = static_cast<double>(exact[i]);
+        return false;
+      }
+      rows.insert(rows.end(), failing.begin(), failing.end());
+      others.erase(failing.begin(), failing.end());
     }
-    note_exactly_empty(rows, game.lambda());
-    return true;
   }
 
   // rows: positions in rows_.
@@ -914,11 +922,11 @@ class Search {
       if (free) break;
       samples &= side(form, sign);
     }
+    emit_blocked(blocker);
     while (path_.size() > depth) {
       sign_[path_.back().form] = 0;
       path_.pop_back();
     }
-    emit({CoverNode::Kind::Blocked, 0, blocker, 0});
     return free;
   }
 
@@ -963,6 +971,21 @@ class Search {
 
   void emit(const CoverNode& node) {
     if (terms_.keep_cover) cover_.nodes.push_back(node);
+  }
+
+  // Two blockers in one: on either side of their common edge, one of them.
+  void emit_blocked(int blocker) {
+    if (!terms_.keep_cover) return;
+    const Blocker& b = space_.blockers()[blocker];
+    if (b.halves[0] < 0) return emit({CoverNode::Kind::Blocked, 0, blocker, 0});
+    const auto [form, sign] = b.shared;
+    if (sign_[form] != 0) return emit_blocked(b.halves[sign_[form] == sign ? 0 : 1]);
+    emit({CoverNode::Kind::Split, sign, form, 0});
+    for (const int half : {0, 1}) {
+      sign_[form] = static_cast<std::int8_t>(half == 0 ? sign : -sign);
+      emit_blocked(b.halves[half]);
+    }
+    sign_[form] = 0;
   }
 
   void note_empty(const std::vector<CoverShare>& shares) {

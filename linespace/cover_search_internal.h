@@ -74,7 +74,7 @@ struct Cover {
 struct SearchTerms {
   Precision precision = Precision::Exact;
   /// Segments tried before the search proper.
-  int samples = 512;
+  int samples = 2048;
   bool samples_only = false;
   std::uint64_t seed = 1;
   bool keep_cover = false;

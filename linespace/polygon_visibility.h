@@ -51,7 +51,7 @@ struct ExactPosition {
 
 struct VisibilityRequest : Request {
   /// Random segments tried first.
-  int samples = 512;
+  int samples = 2048;
   /// Stop there: the answer is Visible, with a witness, or Undecided.
   bool samples_only = false;
   std::uint64_t seed = 1;

@@ -103,9 +103,26 @@ std::size_t SightSpace::KeyHash::operator()(const Key& key) const {
 
 SightSpace::SightSpace(const Triangle& a, const Triangle& b) : a_(a), b_(b) {
   apex_ = apex_off(a);
+  double largest = 0;
+  for (const Triangle* t : {&a_, &b_}) {
+    for (const Point& p : *t) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+  }
+  size_ = std::ldexp(1.0, exponent_of(std::array{largest}));
 }
 
-// Edges that pieces share, in either direction, are one form.
+SightSpace::Key SightSpace::line_key(const Point& from, const Point& to) const {
+  constexpr double kSteps = 0x1p20;
+  const Point along = (to - from).normalized();
+  const Point moment = from.cross(along) / size_;
+  Key key;
+  for (int i = 0; i < 3; ++i) {
+    key.numbers[i] = std::nearbyint(along[i] * kSteps) + 0.0;
+    key.numbers[3 + i] = std::nearbyint(moment[i] * kSteps) + 0.0;
+  }
+  return key;
+}
+
+// Edges on one line, in either direction, are one form: the sign is the same for all.
 int SightSpace::form(const FormName& name, const Piece& piece, bool* reversed) {
   const int n = static_cast<int>(piece.corners.size());
   FormPoints x;
@@ -132,10 +149,14 @@ int SightSpace::form(const FormName& name, const Piece& piece, bool* reversed) {
       std::swap(x[0], x[1]);
       *reversed = true;
     }
-    const auto [known, is_new] = edge_forms_.try_emplace(
-        Key{{x[0][0], x[0][1], x[0][2], x[1][0], x[1][1], x[1][2], 0}},
-        static_cast<int>(forms_.size()));
-    if (!is_new) return known->second;
+    const auto [known, is_new] =
+        edge_forms_.try_emplace(line_key(x[0], x[1]), static_cast<int>(forms_.size()));
+    if (!is_new) {
+      const FormPoints& y = points_[known->second];
+      if (collinear(y[0], y[1], x[0]) && collinear(y[0], y[1], x[1])) {
+        return known->second;
+      }
+    }
   }
   return new_form(name, x);
 }
@@ -189,17 +210,61 @@ int SightSpace::new_form(const FormName& name, const FormPoints& x) {
 }
 
 void SightSpace::add_blocker(int number, std::span<const Blocker::Part> parts) {
-  const Blocker blocker{number, static_cast<int>(parts_.size()), 0};
+  std::vector<Blocker::Part> open;
   for (const Blocker::Part& part : parts) {
     const std::int8_t constant = forms_[part.form].constant;
-    if (constant == -part.sign) {  // fails in all the open sight space
-      parts_.resize(blocker.first);
-      return;
-    }
-    if (constant == 0) parts_.push_back(part);
+    if (constant == -part.sign) return;  // fails in all the open sight space
+    if (constant == 0) open.push_back(part);
+  }
+  store({number, 0}, open);
+}
+
+void SightSpace::store(Blocker blocker, std::span<const Blocker::Part> parts) {
+  blocker.first = static_cast<int>(parts_.size());
+  blocker.count = static_cast<int>(parts.size());
+  parts_.insert(parts_.end(), parts.begin(), parts.end());
+  for (const auto& [form, sign] : parts) {
+    if (forms_[form].name.kind != FormKind::EdgeSide) continue;
+    users_[form].emplace_back(static_cast<int>(blockers_.size()), sign);
   }
   blockers_.push_back(blocker);
-  blockers_.back().count = static_cast<int>(parts_.size()) - blocker.first;
+}
+
+// Blockers are joined, joined ones again, up to a size and a number that keep them
+// useful: a wall of triangles becomes one blocker with the wall's outline.
+void SightSpace::join_neighbours() {
+  for (; neighbours_known_ < blockers_.size(); ++neighbours_known_) {
+    const int b = static_cast<int>(neighbours_known_);
+    const auto own = this->parts(blockers_[b]);
+    const std::vector<Blocker::Part> edges(own.begin(), own.end());
+    for (const Blocker::Part& part : edges) {
+      const auto users = users_.find(part.form);
+      if (users == users_.end()) continue;
+      const auto others = users->second;
+      for (const auto& [other, sign] : others) {
+        if (other < b && sign == -part.sign) join(b, other, part);
+      }
+    }
+  }
+}
+
+void SightSpace::join(int b, int other, const Blocker::Part& shared) {
+  constexpr std::size_t kMostParts = 8;
+  constexpr std::size_t kMostJoined = 256;
+  if (joined_.size() >= kMostJoined) return;
+  std::vector<Blocker::Part> all;
+  for (const int half : {b, other}) {
+    for (const Blocker::Part& part : parts(blockers_[half])) {
+      if (part.form != shared.form) all.push_back(part);
+    }
+  }
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    if (all[i].form == all[i - 1].form) return;  // asks for both signs
+  }
+  if (all.size() > kMostParts || !joined_.insert(all).second) return;
+  store({-1, 0, 0, {b, other}, shared}, all);
 }
 
 void SightSpace::add(int number, const Piece& piece) {
@@ -225,6 +290,7 @@ void SightSpace::add(int number, const Piece& piece) {
     }
     add_blocker(number, parts);
   }
+  join_neighbours();
 }
 
 // All in one plane: the segment meets the piece iff it crosses one of its sides, or p

@@ -12,7 +12,9 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstdint>
+#include <set>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -75,9 +77,15 @@ struct Blocker {
   struct Part {
     int form;
     std::int8_t sign;
+    auto operator<=>(const Part&) const = default;
   };
-  int piece;
-  int first, count;  ///< of its parts
+  int piece;             ///< -1 for two blockers in one
+  int first, count = 0;  ///< of its parts
+  /// Two blockers of which one has `shared` as a part, the other its opposite.  Where all
+  /// their other parts hold, one of the two blocks: a line that passes inside the
+  /// silhouette of both meets one of them, on whichever side of their common edge.
+  std::array<int, 2> halves{-1, -1};
+  Part shared{-1, 0};  ///< as halves[0] has it
 };
 
 /// A convex planar occluder, at least three corners, the first three not collinear.
@@ -92,8 +100,8 @@ class SightSpace {
   /// The triangles must have area.
   SightSpace(const Triangle& a, const Triangle& b);
 
-  /// Adds all ways in which the piece blocks; those that block no open set of segments
-  /// are left out.
+  /// Adds all ways in which the piece blocks, alone and together with pieces that share
+  /// an edge's line with it; those that block no open set of segments are left out.
   void add(int number, const Piece& piece);
 
   [[nodiscard]] const Triangle& a() const { return a_; }
@@ -116,9 +124,9 @@ class SightSpace {
                             const Weights& beta) const;
 
  private:
-  // A form is found again by the points it is made of, whichever piece names it.
+  // Lines of edges, by direction and moment, rounded: equal keys are a hint.
   struct Key {
-    std::array<double, 7> numbers;
+    std::array<double, 6> numbers;
     bool operator==(const Key&) const = default;
   };
   struct KeyHash {
@@ -127,7 +135,11 @@ class SightSpace {
 
   int form(const FormName& name, const Piece& piece, bool* reversed);
   int new_form(const FormName& name, const FormPoints& x);
+  [[nodiscard]] Key line_key(const Point& from, const Point& to) const;
   void add_blocker(int number, std::span<const Blocker::Part> parts);
+  void store(Blocker blocker, std::span<const Blocker::Part> parts);
+  void join_neighbours();
+  void join(int b, int other, const Blocker::Part& shared);
   void add_coplanar(int number, const Piece& piece);
 
   Triangle a_, b_;
@@ -138,6 +150,11 @@ class SightSpace {
   std::vector<Blocker> blockers_;
   std::vector<Blocker::Part> parts_;
   std::unordered_map<Key, int, KeyHash> edge_forms_;
+  // For each form that is an edge's: the blockers it is a part of.
+  std::unordered_map<int, std::vector<std::pair<int, std::int8_t>>> users_;
+  std::set<std::vector<Blocker::Part>> joined_;
+  std::size_t neighbours_known_ = 0;  // blockers up to here were joined to others
+  double size_ = 1;                   // of the largest coordinate, a power of two
 };
 
 /// A point off the plane of the triangle, with coordinates near its own.

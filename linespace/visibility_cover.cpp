@@ -59,11 +59,16 @@ Polynomial homogeneous(Polynomial f) {
   return f;
 }
 
-/// A form by its points, so that an edge is the same whichever piece it is of.
+/// A form by its points; an edge by its line, whichever piece it is of.
 struct Measure {
   FormKind kind;
   std::vector<Point> points;
-  bool operator==(const Measure&) const = default;
+  bool operator==(const Measure& other) const {
+    if (kind != other.kind) return false;
+    if (kind != FormKind::EdgeSide) return points == other.points;
+    return collinear(points[0], points[1], other.points[0]) &&
+           collinear(points[0], points[1], other.points[1]);
+  }
 
   [[nodiscard]] Rational at(const ExactPoint& p, const ExactPoint& q) const {
     FormPoints x;

@@ -131,6 +131,56 @@ TEST(PolygonVisibility, WithoutSamplesTheAnswerIsTheSame) {
   }
 }
 
+TEST(PolygonVisibility, WithinACoplanarOccluderNothingIsSeen) {
+  const auto triangle = [](double x, double y) -> Polygon {
+    return {{x, y, 0}, {x + 1, y, 0}, {x, y + 1, 0}};
+  };
+  const Polygon plate{{-1, -1, 0}, {9, -1, 0}, {9, 9, 0}, {-1, 9, 0}};
+  EXPECT_EQ(checked_verdict({triangle(0, 0), triangle(4, 4), {}}), Verdict::Visible);
+  EXPECT_EQ(checked_verdict({triangle(0, 0), triangle(4, 4), {plate}}), Verdict::Hidden);
+  // Only a lies in it; then neither, but it is between them.
+  const Polygon under_a{{-1, -1, 0}, {3, -1, 0}, {3, 3, 0}, {-1, 3, 0}};
+  EXPECT_EQ(checked_verdict({triangle(0, 0), triangle(4, 4), {under_a}}),
+            Verdict::Hidden);
+  const Polygon between{{-8, 12, 0}, {12, -8, 0}, {12.5, -8, 0}, {-8, 12.5, 0}};
+  EXPECT_EQ(checked_verdict({triangle(0, 0), triangle(4, 4), {between}}),
+            Verdict::Hidden);
+}
+
+TEST(SightSpace, BlockersAreClosed) {
+  internal::SightSpace space({Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)},
+                             {Point(0, 0, 1), Point(1, 0, 1), Point(0, 1, 1)});
+  space.add(0, {0, {{-1, -1, 0.5}, {0.25, -1, 0.5}, {0.25, 2, 0.5}, {-1, 2, 0.5}}});
+  ASSERT_EQ(space.blockers().size(), 1U);
+  const internal::Weights on{0.5, 0.25, 0.25};
+  EXPECT_TRUE(space.blocks(space.blockers()[0], on, on));
+  const internal::Weights beside{0.5 - 0x1p-40, 0.25 + 0x1p-40, 0.25};
+  EXPECT_FALSE(space.blocks(space.blockers()[0], beside, beside));
+}
+
+TEST(PolygonVisibility, TilesOfAWallAreJoined) {
+  VisibilityQuestion question{kBelow, kAbove, {}};
+  constexpr int kTiles = 4;
+  const auto at = [](int i, int j) { return Point(-0.5 + 0.5 * i, -0.5 + 0.5 * j, 0.5); };
+  for (int i = 0; i < kTiles; ++i) {
+    for (int j = 0; j < kTiles; ++j) {
+      question.occluders.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      question.occluders.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  VisibilityRequest request;
+  request.keep_cover = true;
+  const VisibilityAnswer answer = polygon_visibility(question, request);
+  ASSERT_EQ(answer.verdict, Verdict::Hidden);
+  EXPECT_EQ(check_cover(question, *answer.cover), std::nullopt);
+  // Triangle by triangle it would take dozens.
+  EXPECT_LE(answer.cost.cells, 4);
+  // One tile less opens a window.
+  question.occluders.erase(question.occluders.begin() + 12,
+                           question.occluders.begin() + 14);
+  EXPECT_EQ(polygon_visibility(question).verdict, Verdict::Visible);
+}
+
 TEST(PolygonVisibility, SliversBlockNothing) {
   VisibilityInstance instance{kBelow, kAbove, {}};
   for (int i = 0; i < 9; ++i) {
