@@ -4,9 +4,10 @@ set datafile separator ","
 set logscale x
 set xlabel "milliseconds a question, mean"
 set ylabel "wrong answers, %"
-set yrange [-1:*]
+set xrange [0.05:400]
+set yrange [-1:29]
 set grid lc rgb "#dddddd"
-set key top right
+set key top right opaque
 method(name) = sprintf("< grep ^%s, %s", name, csv)
 plot method("random") using 4:3 with linespoints pt 7 lc rgb "#888888" title "random segments, 10^2 to 10^6", \
      method("random") using 4:3:2 with labels offset 3,0.6 tc rgb "#666666" notitle, \
