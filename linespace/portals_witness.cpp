@@ -89,7 +89,11 @@ std::optional<StabbingWitness> witness_in_doubles(const PortalState& s) {
   };
   if (auto w = attempt(mean)) return w;
   for (const Ends& e : ends) {
-    for (double t = 0.5; t > 1e-4; t /= 4) {
+    // From half-way towards the extremal line; every attempt is checked exactly, so that
+    // the number of steps decides how hard to look and nothing else.
+    constexpr int kSteps = 7;
+    double t = 0.5;
+    for (int step = 0; step < kSteps; ++step, t /= 4) {
       if (auto w = attempt(between(e, mean, t))) return w;
     }
   }
