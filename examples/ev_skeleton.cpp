@@ -1,7 +1,7 @@
 // Where the view of a scene changes: its EV skeleton, counted by kind, and one arc
 // with its corner and edge.  One task, top to bottom.
 
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 
 #include <cstdio>
 #include <map>

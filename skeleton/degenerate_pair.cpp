@@ -478,7 +478,7 @@ void find_further_contacts(const Generators& g, const Star& star, VertexView& vi
       node.kind = kind.value_or(NodeKind::Degenerate);
       node.self = two_on_one_object(g, groups);
       node.first_generator = static_cast<std::uint32_t>(view.pool.size());
-      node.generator_count = static_cast<std::uint16_t>(all.size());
+      node.generator_count = static_cast<std::uint32_t>(all.size());
       view.pool.insert(view.pool.end(), all.begin(), all.end());
     }
   }

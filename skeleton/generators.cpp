@@ -398,6 +398,8 @@ void Generators::find_ridges() {
                        e.points,
                        PlaneSide({e1, e0, s.point(thirds[a])}),
                        PlaneSide({e0, e1, s.point(thirds[b])}),
+                       {thirds[a], thirds[b]},
+                       {s.faces()[faces[a]].facet, s.faces()[faces[b]].facet},
                        touched == EdgeTouch::Touches});
     boxes.push_back(box);
   }

@@ -26,6 +26,8 @@ struct Ridge {
   std::array<std::int32_t, 2> points;
   /// Oriented so that the wedge is behind both.
   PlaneSide a, b;
+  /// A point beside the edge in the plane of a, of b; and the facet of the face there.
+  std::array<std::int32_t, 2> thirds, facets;
   /// A foreign face touches the open edge: lines there need the general contact test.
   bool touched;
 };
@@ -110,6 +112,17 @@ class Generators {
   std::vector<std::vector<std::array<std::int32_t, 2>>> outlines_;
   std::vector<std::int32_t> object_starts_, object_ids_;
 };
+
+/// Sign of a plane's bounded value at p, by the exact predicate where the bound is too
+/// weak.
+[[nodiscard]] inline Sign sign_of(const BoundedValue& value, const PlaneSide& plane,
+                                  const Point& p) {
+  if (std::abs(value.value) > value.error || value.error == 0) {
+    ++thread_stage_counts().by_double;
+    return sign_of(value.value);
+  }
+  return plane(p);
+}
 
 /// The closed boxes have a point in common.
 [[nodiscard]] bool boxes_meet(const Box& a, const Box& b);

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linespace/occlusion.h"
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 
 namespace sightline {
 

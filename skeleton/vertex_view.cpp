@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "skeleton/degenerate_pair_internal.h"
+#include "skeleton/occluder_shadow_internal.h"
 #include "skeleton/vertex_view_internal.h"
 
 namespace sightline::internal {
@@ -17,17 +18,6 @@ constexpr double kWideView = 0.1;
 
 std::array<double, 3> relative(const Point& p, const Point& origin) {
   return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
-}
-
-// Sign of a bounded value, by the exact predicate where the bound is too weak.
-Sign sign_of(const BoundedValue& value, const PlaneSide& plane, const Point& p) {
-  if (std::abs(value.value) > value.error || value.error == 0) {
-    ++thread_stage_counts().by_double;
-    return value.value > 0   ? Sign::Positive
-           : value.value < 0 ? Sign::Negative
-                             : Sign::Zero;
-  }
-  return plane(p);
 }
 
 // A corner of the face off the line through p and q.
@@ -52,7 +42,7 @@ std::uint32_t VertexView::add_node(NodeKind kind, bool self, bool end,
   node.self = self;
   node.end = end;
   node.first_generator = static_cast<std::uint32_t>(pool.size());
-  node.generator_count = static_cast<std::uint16_t>(generators.size());
+  node.generator_count = static_cast<std::uint32_t>(generators.size());
   node.segment = segment;
   pool.insert(pool.end(), generators.begin(), generators.end());
   nodes.push_back(node);
@@ -175,79 +165,15 @@ void VertexViewer::prepare(int star) {
 int VertexViewer::shadow_of(int face) {
   const Face& f = scene_.faces()[face];
   const bool solid = g_.convex_solid(f.object);
-  const auto outline =
-      solid ? std::span<const std::array<std::int32_t, 2>>() : g_.facet_outline(f.facet);
-  const auto objects = static_cast<std::int64_t>(scene_.objects().size());
-  const auto facets = static_cast<std::int64_t>(scene_.facets().size());
-  const std::int64_t key = solid              ? f.object
-                           : !outline.empty() ? objects + f.facet
-                                              : objects + facets + face;
-  const auto [at, fresh] = shadow_index_.try_emplace(key, -1);
+  const auto [at, fresh] = shadow_index_.try_emplace(occluder_key(g_, face), -1);
   if (!fresh) return at->second;
   if (solid && contains(own_objects_, f.object)) return -1;
   if (!solid && facet_stamp_[f.facet] == stamp_) return -1;
-  Shadow shadow;
-  if (solid) {
-    add_solid_planes(f.object, shadow);
-  } else {
-    add_face_planes(face, outline, shadow);
-  }
+  Shadow shadow = solid ? solid_shadow(g_, f.object, at_) : facet_shadow(g_, face, at_);
   if (shadow.planes.empty()) return -1;
   at->second = static_cast<int>(shadows_.size());
   shadows_.push_back(std::move(shadow));
   return at->second;
-}
-
-// Behind a convex solid's front faces, inside the cone of its outline.
-void VertexViewer::add_solid_planes(int object, Shadow& shadow) const {
-  std::vector<std::array<std::int32_t, 3>> sides;  // smaller id, larger id, direction
-  for (const int f : scene_.objects()[object].faces) {
-    if (g_.face_plane(f)(at_) != Sign::Positive) continue;
-    const auto [a, b, c] = face_plane_through(scene_, f);
-    shadow.planes.push_back(plane_seen_from(at_, a, b, c));
-    const auto p = scene_.face_points(f);
-    for (std::size_t k = 0; k < p.size(); ++k) {
-      const int from = p[k];
-      const int to = p[(k + 1) % p.size()];
-      sides.push_back({std::min(from, to), std::max(from, to), from < to});
-    }
-  }
-  std::sort(sides.begin(), sides.end());
-  for (std::size_t i = 0; i < sides.size(); ++i) {
-    if (i + 1 < sides.size() && sides[i][0] == sides[i + 1][0] &&
-        sides[i][1] == sides[i + 1][1]) {
-      ++i;
-      continue;
-    }
-    const bool forward = sides[i][2] != 0;
-    const Point& p = scene_.point(sides[i][forward ? 0 : 1]);
-    const Point& q = scene_.point(sides[i][forward ? 1 : 0]);
-    // The face lies to the left of its side pq: negative for the plane (viewpoint, p, q).
-    shadow.planes.push_back(plane_from(at_, p, q));
-  }
-}
-
-// Beyond a convex polygon's plane, inside the cone of its sides.
-void VertexViewer::add_face_planes(int face,
-                                   std::span<const std::array<std::int32_t, 2>> outline,
-                                   Shadow& shadow) const {
-  const Sign here = g_.face_plane(face)(at_);
-  if (here == Sign::Zero) return;
-  const bool front = here == Sign::Positive;
-  const auto [a, b, c] = face_plane_through(scene_, face);
-  shadow.planes.push_back(front ? plane_seen_from(at_, a, b, c)
-                                : plane_seen_from(at_, a, c, b));
-  const auto add = [&](int from, int to) {
-    const Point& p = scene_.point(front ? from : to);
-    const Point& q = scene_.point(front ? to : from);
-    shadow.planes.push_back(plane_from(at_, p, q));
-  };
-  for (const auto& side : outline) add(side[0], side[1]);
-  if (!outline.empty()) return;
-  const auto corners = scene_.face_points(face);
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    add(corners[k], corners[(k + 1) % corners.size()]);
-  }
 }
 
 bool VertexViewer::hidden(const std::array<double, 3>& centre,
@@ -273,68 +199,10 @@ bool VertexViewer::hidden(const std::array<double, 3>& centre,
   return false;
 }
 
-// The nearest face that plain double arithmetic finds on the way: a proposal only.
-int VertexViewer::first_face_hit(const Point& target) const {
-  const Point d = target - at_;
-  std::array<double, 3> inverse;
-  for (int i = 0; i < 3; ++i) inverse[i] = 1 / d[i];
-  double nearest = 1;
-  int hit = -1;
-  const Bvh& tree = g_.face_tree();
-  if (tree.empty()) return -1;
-  const auto entry = [&](const Box& box) {
-    double t0 = 0, t1 = nearest;
-    for (int i = 0; i < 3; ++i) {
-      double a = (box.min[i] - at_[i]) * inverse[i];
-      double b = (box.max[i] - at_[i]) * inverse[i];
-      if (a > b) std::swap(a, b);
-      if (a > t0) t0 = a;
-      if (b < t1) t1 = b;
-    }
-    return t0 <= t1 ? t0 : 2.0;
-  };
-  std::uint32_t stack[128];
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Bvh::Node& node = tree.node(stack[--top]);
-    if (entry(node.box) > nearest) continue;
-    if (node.count == 0) {
-      const double left = entry(tree.node(node.first).box);
-      const double right = entry(tree.node(node.first + 1).box);
-      const bool left_first = left <= right;
-      stack[top++] = node.first + (left_first ? 1 : 0);
-      stack[top++] = node.first + (left_first ? 0 : 1);
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      const int f = static_cast<int>(tree.items()[node.first + i]);
-      const auto corners = scene_.face_points(f);
-      const Point& a = scene_.point(corners[0]);
-      const Point n = (scene_.point(corners[1]) - a).cross(scene_.point(corners[2]) - a);
-      const double slope = n.dot(d);
-      const double t = n.dot(a - at_) / slope;
-      if (facet_stamp_[scene_.faces()[f].facet] == stamp_) continue;
-      if (!(t > 0 && t < nearest)) continue;
-      bool inside = true;
-      for (std::size_t k = 0; k < corners.size() && inside; ++k) {
-        const Point p = scene_.point(corners[k]) - at_;
-        const Point q = scene_.point(corners[(k + 1) % corners.size()]) - at_;
-        inside = p.cross(q).dot(d) * slope >= 0;
-      }
-      if (inside) {
-        nearest = t;
-        hit = f;
-      }
-    }
-  }
-  return hit;
-}
-
 bool VertexViewer::hidden_behind_proposal(const Point& target,
                                           const std::array<double, 3>& centre,
                                           const std::array<double, 3>& half) {
-  const int face = first_face_hit(target);
+  const int face = propose_occluder(g_, at_, target, facet_stamp_, stamp_);
   if (face < 0) return false;
   const int index = shadow_of(face);
   if (index < 0) return false;

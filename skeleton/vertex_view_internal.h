@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "skeleton/edge_cuts_internal.h"
-#include "skeleton/ev_skeleton.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/shaft_internal.h"
+#include "skeleton/skeleton.h"
 
 namespace sightline::internal {
 
@@ -63,10 +63,6 @@ class VertexViewer {
   bool hidden_behind_proposal(const Point& target, const std::array<double, 3>& centre,
                               const std::array<double, 3>& half);
   int shadow_of(int face);  // position in shadows_, -1 if it casts none
-  void add_solid_planes(int object, Shadow& shadow) const;
-  void add_face_planes(int face, std::span<const std::array<std::int32_t, 2>> outline,
-                       Shadow& shadow) const;
-  [[nodiscard]] int first_face_hit(const Point& target) const;
   void visit_ridges(VertexView& out);
   void view_ridge(int ridge, VertexView& out);
   void add_blocker(Pair& pair, int face);

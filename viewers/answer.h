@@ -8,7 +8,7 @@
 
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 
 namespace sightline::viewers {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 #include "viewers/far_ends.h"
 #include "viewers/picture.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
 
 namespace sightline::viewers {

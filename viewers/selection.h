@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 
 namespace sightline::viewers {
 

@@ -5,7 +5,7 @@
 #include <ostream>
 #include <string>
 
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
 #include "viewers/answer.h"
 

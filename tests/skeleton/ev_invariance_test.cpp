@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "linespace/scene.h"
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 #include "tests/support/generators.h"
 #include "tests/support/library_skeleton.h"
 

@@ -11,7 +11,7 @@
 
 #include "linespace/occlusion.h"
 #include "linespace/scene.h"
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 #include "tests/support/generators.h"
 #include "tests/support/library_skeleton.h"
 #include "tests/support/naive_boxes.h"

@@ -1,6 +1,6 @@
 // The EV skeleton and its lines on small scenes whose answers are known by hand.
 
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 
 #include <gtest/gtest.h>
 

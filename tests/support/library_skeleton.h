@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "linespace/scene.h"
-#include "skeleton/ev_skeleton.h"
+#include "skeleton/skeleton.h"
 #include "tests/support/canonical_skeleton.h"
 
 namespace sightline::testing {

@@ -1,5 +1,6 @@
-// The EV part of the visibility skeleton: every line set through a vertex and an edge
-// that sees it, exactly, with the extremal stabbing lines at its ends.
+// The visibility skeleton: the critical line sets of a scene (EV, through a vertex and an
+// edge; EEE, through three edges), exactly, with the extremal stabbing lines at their
+// ends.
 //
 // Solid mode as the project's contract defines it.  A generator is a point id or an edge
 // id of the scene; contacts are derived from geometry, so that touching solids count as
@@ -24,7 +25,17 @@ namespace sightline {
 /// have more contacts than four degrees of freedom need; Saddle is a line through a
 /// corner along which two of that corner's own edges line up (objects that are not
 /// convex); Pierce is where an edge enters a face (overlapping objects).
-enum class NodeKind : std::uint8_t { VV, VEE, EVE, FvE, Saddle, Pierce, Degenerate };
+enum class NodeKind : std::uint8_t {
+  VV,
+  VEE,
+  EVE,
+  FvE,
+  EEEE,
+  FEE,
+  Saddle,
+  Pierce,
+  Degenerate
+};
 
 enum class GeneratorKind : std::uint8_t { Vertex, Edge, Face };
 
@@ -43,9 +54,11 @@ struct SkeletonNode {
   /// The last contact is a corner at which the line enters its solid: the line ends there
   /// rather than grazes (counted under "end").
   bool end = false;
+  /// EEEE: which of the two lines through the four edges.
+  bool second = false;
   /// Generators in order along the line: `count` of them from Skeleton::generators().
   std::uint32_t first_generator = 0;
-  std::uint16_t generator_count = 0;
+  std::uint32_t generator_count = 0;
   /// The outermost contacts, rounded to double.
   std::array<Point, 2> segment;
 };
@@ -61,6 +74,16 @@ struct SkeletonArc {
   std::array<std::uint32_t, 2> nodes;
 };
 
+/// A connected set of lines through three edges that support and see along them.
+struct EeeArc {
+  /// Edge ids in order along the line, starting from the one that `range` is told on.
+  std::array<std::int32_t, 3> edges;
+  bool self = false;  ///< two of the edges are of one object
+  /// Parameters on edges[0], rounded, of the ends of the open interval, and the nodes.
+  std::array<double, 2> range;
+  std::array<std::uint32_t, 2> nodes;
+};
+
 /// Which part of the skeleton is wanted.
 struct SkeletonRequest : Request {
   /// Only arcs whose vertex is on one of these objects; empty means all.
@@ -71,14 +94,18 @@ struct SkeletonRequest : Request {
   std::optional<std::array<Point, 2>> region;
 };
 
-/// Immutable; safe to share between threads.  Deterministic: arcs are ordered by vertex,
-/// edge and parameter, whatever the number of threads.
+/// Immutable; safe to share between threads.  Deterministic: EV arcs are ordered by
+/// vertex, edge and parameter, EEE arcs by outer and middle edges, whatever the number of
+/// threads.
 struct Skeleton {
   std::vector<SkeletonNode> nodes;
-  std::vector<SkeletonArc> arcs;
+  std::vector<SkeletonArc> arcs;  ///< EV
+  std::vector<EeeArc> eee_arcs;
   std::vector<Generator> generator_pool;
   bool complete = true;
   std::size_t vertices_done = 0, vertices_asked = 0;
+  /// First edges of EEE arcs, each with all edges of higher number.
+  std::size_t edges_done = 0, edges_asked = 0;
   StageCounts predicates;
 
   [[nodiscard]] std::span<const Generator> generators(const SkeletonNode& node) const {
@@ -90,5 +117,10 @@ struct Skeleton {
 /// else lies along their lines: skeleton_lines.h.
 [[nodiscard]] Skeleton build_ev_skeleton(const Scene& scene,
                                          const SkeletonRequest& request = {});
+
+/// Builds the whole skeleton: the EV part as build_ev_skeleton, then the EEE arcs with
+/// their VEE, EVE, EEEE and FEE nodes.
+[[nodiscard]] Skeleton build_skeleton(const Scene& scene,
+                                      const SkeletonRequest& request = {});
 
 }  // namespace sightline

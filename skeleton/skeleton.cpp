@@ -1,25 +1,19 @@
-#include "skeleton/ev_skeleton.h"
-
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
+#include "skeleton/skeleton.h"
 
 #include <algorithm>
-#include <atomic>
 #include <map>
-#include <mutex>
+#include <memory>
 #include <optional>
-#include <thread>
 #include <unordered_map>
 
-#include "skeleton/degenerate_pair_internal.h"
+#include "skeleton/eee_skeleton_internal.h"
+#include "skeleton/parallel_internal.h"
 #include "skeleton/vertex_view_internal.h"
 
 namespace sightline {
 namespace {
 
+using Clock = std::chrono::steady_clock;
 using internal::Generators;
 using internal::Selection;
 using internal::VertexView;
@@ -65,11 +59,6 @@ Selection selected_ridges(const Generators& g, const SkeletonRequest& request) {
     selection.ridges.push_back(asked);
   }
   return selection;
-}
-
-StageCounts operator-(const StageCounts& a, const StageCounts& b) {
-  return {a.by_double - b.by_double, a.by_interval - b.by_interval,
-          a.by_exact - b.by_exact};
 }
 
 // Joins views, one node for each line: VV nodes are found from both ends, degenerate ones
@@ -124,65 +113,16 @@ class Joiner {
   std::unordered_map<std::uint64_t, std::uint32_t> pairs_, ends_;
   std::map<std::vector<Generator>, std::uint32_t> lines_;
 };
-
-}  // namespace
-
-Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  const int threads = request.threads > 0
-                          ? request.threads
-                          : static_cast<int>(std::thread::hardware_concurrency());
-  Skeleton skeleton;
-  const StageCounts before = thread_stage_counts();
-  const Generators generators(scene, threads);
-  const StageCounts prepared = thread_stage_counts() - before;
+void build_ev(const Generators& generators, const SkeletonRequest& request,
+              Clock::time_point start, double progress_share, Skeleton& skeleton) {
   const std::vector<int> stars = selected_stars(generators, request);
   const Selection selection = selected_ridges(generators, request);
   skeleton.vertices_asked = stars.size();
-
   std::vector<std::optional<VertexView>> views(stars.size());
-  std::atomic<bool> stopped{false};
-  std::atomic<std::size_t> done{0};
-  std::mutex progress_mutex;
-  std::mutex count_mutex;
-  StageCounts counts = prepared;
-
-  oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
-                                    static_cast<std::size_t>(threads));
-  oneapi::tbb::task_arena arena(threads);
-  oneapi::tbb::enumerable_thread_specific<std::unique_ptr<VertexViewer>> viewers;
-  arena.execute([&] {
-    oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<std::size_t>(0, stars.size(), 8),
-        [&](const auto& range) {
-          const PrecisionScope scope(request.precision);
-          const StageCounts at_first = thread_stage_counts();
-          auto& viewer = viewers.local();
-          if (!viewer) viewer = std::make_unique<VertexViewer>(generators, selection);
-          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            if (stopped.load(std::memory_order_relaxed)) break;
-            const std::chrono::duration<double> elapsed = Clock::now() - start;
-            if (request.stop.stop_requested() ||
-                elapsed.count() > request.budget_seconds) {
-              stopped = true;
-              break;
-            }
-            views[i] = viewer->view(stars[i]);
-            ++done;
-          }
-          if (request.progress) {
-            const std::lock_guard lock(progress_mutex);
-            request.progress(static_cast<double>(done.load()) /
-                             static_cast<double>(std::max<std::size_t>(1, stars.size())));
-          }
-          const StageCounts used = thread_stage_counts() - at_first;
-          const std::lock_guard lock(count_mutex);
-          counts.by_double += used.by_double;
-          counts.by_interval += used.by_interval;
-          counts.by_exact += used.by_exact;
-        });
-  });
+  internal::for_each_parallel(
+      stars.size(), request, start, {0, progress_share}, skeleton.predicates,
+      [&] { return std::make_unique<VertexViewer>(generators, selection); },
+      [&](VertexViewer& viewer, std::size_t i) { views[i] = viewer.view(stars[i]); });
   Joiner joiner(skeleton);
   for (auto& view : views) {
     if (!view) continue;
@@ -191,7 +131,28 @@ Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
     ++skeleton.vertices_done;
   }
   skeleton.complete = skeleton.vertices_done == skeleton.vertices_asked;
-  skeleton.predicates = counts;
+}
+
+}  // namespace
+
+Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
+  const auto start = Clock::now();
+  Skeleton skeleton;
+  const StageCounts before = thread_stage_counts();
+  const Generators generators(scene, internal::threads_of(request));
+  skeleton.predicates = internal::difference(thread_stage_counts(), before);
+  build_ev(generators, request, start, 1, skeleton);
+  return skeleton;
+}
+
+Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
+  const auto start = Clock::now();
+  Skeleton skeleton;
+  const StageCounts before = thread_stage_counts();
+  const Generators generators(scene, internal::threads_of(request));
+  skeleton.predicates = internal::difference(thread_stage_counts(), before);
+  build_ev(generators, request, start, 0.3, skeleton);
+  internal::add_eee(generators, request, start, {0.3, 1}, skeleton);
   return skeleton;
 }
 

@@ -1,0 +1,761 @@
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "skeleton/edge_pair_internal.h"
+#include "skeleton/occluder_shadow_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+std::array<double, 3> relative(const Point& p, const Point& origin) {
+  return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
+}
+
+constexpr std::array<double, 3> kPointHalf{0, 0, 0};
+
+bool share(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
+  return std::any_of(a.begin(), a.end(), [&](std::int32_t x) {
+    return std::find(b.begin(), b.end(), x) != b.end();
+  });
+}
+
+// Conservative test of boxes against the hull of two segments: separated along some
+// direction, however that was computed.
+class PairShaft {
+ public:
+  PairShaft(const Point& p0, const Point& p1, const Point& q0, const Point& q1)
+      : origin_(p0), corners_{Point::Zero(), p1 - p0, q0 - p0, q1 - p0} {
+    for (int i = 0; i < 3; ++i) {
+      min_[i] = std::min(std::min(p0[i], p1[i]), std::min(q0[i], q1[i]));
+      max_[i] = std::max(std::max(p0[i], p1[i]), std::max(q0[i], q1[i]));
+    }
+    const Point& p = corners_[1];
+    const Point& q = corners_[2];
+    const Point& r = corners_[3];
+    add(p.cross(q));
+    add(p.cross(r));
+    add(q.cross(r));
+    add((q - p).cross(r - p));
+    const Point long_edges[] = {q, r, q - p, r - p};
+    for (const Point& e : long_edges) {
+      add({0, -e[2], e[1]});
+      add({e[2], 0, -e[0]});
+      add({-e[1], e[0], 0});
+    }
+  }
+
+  [[nodiscard]] bool may_meet(const Box& box) const {
+    std::array<double, 3> c, h;
+    for (int i = 0; i < 3; ++i) {
+      if (box.min[i] > max_[i] || box.max[i] < min_[i]) return false;
+      const double centre = 0.5 * (box.min[i] + box.max[i]);
+      // 16 e covers the roundings of centre, its offset, the products and the sums.
+      h[i] = std::max(box.max[i] - centre, centre - box.min[i]);
+      c[i] = centre - origin_[i];
+      h[i] += 16 * kUnitRoundoff * (std::abs(c[i]) + h[i]);
+    }
+    for (int k = 0; k < count_; ++k) {
+      const Axis& axis = axes_[k];
+      double at = 0;
+      double radius = 0;
+      for (int i = 0; i < 3; ++i) {
+        at += axis.direction[i] * c[i];
+        radius += std::abs(axis.direction[i]) * h[i];
+      }
+      if (at - radius > axis.max || at + radius < axis.min) return false;
+    }
+    return true;
+  }
+
+ private:
+  struct Axis {
+    Point direction;
+    double min, max;
+  };
+  void add(const Point& m) {
+    double low = 0;
+    double high = 0;
+    double error = 0;
+    for (const Point& x : corners_) {
+      double at = 0;
+      double size = 0;
+      for (int i = 0; i < 3; ++i) {
+        at += m[i] * x[i];
+        size += std::abs(m[i] * x[i]);
+      }
+      low = std::min(low, at);
+      high = std::max(high, at);
+      error = std::max(error, size);
+    }
+    error *= 16 * kUnitRoundoff;
+    axes_[count_++] = {m, low - error, high + error};
+  }
+
+  Point origin_;
+  std::array<Point, 4> corners_;
+  std::array<double, 3> min_, max_;
+  std::array<Axis, 16> axes_;
+  int count_ = 0;
+};
+
+}  // namespace
+
+Carriers::Carriers(const Generators& g) {
+  const Scene& scene = g.scene();
+  std::unordered_map<std::uint64_t, std::int32_t> known;
+  const auto key = [](std::int32_t p, std::int32_t q) {
+    return (static_cast<std::uint64_t>(std::min(p, q)) << 32) |
+           static_cast<std::uint32_t>(std::max(p, q));
+  };
+  const auto carrier_of = [&](std::int32_t p, std::int32_t q, std::int32_t edge) {
+    const auto [at, fresh] =
+        known.try_emplace(key(p, q), static_cast<std::int32_t>(all.size()));
+    if (fresh) {
+      all.push_back({{std::min(p, q), std::max(p, q)}, edge});
+      ridge.push_back(edge >= 0 ? g.ridge_of_edge(edge) : -1);
+    }
+    return at->second;
+  };
+  std::vector<std::int32_t> of_edge;
+  for (std::size_t e = 0; e < scene.edges().size(); ++e) {
+    const auto& points = scene.edges()[e].points;
+    of_edge.push_back(carrier_of(points[0], points[1], static_cast<std::int32_t>(e)));
+  }
+  for (const Ridge& r : g.ridges()) of_ridge.push_back(of_edge[r.edge]);
+  starts.push_back(0);
+  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    const auto corners = scene.face_points(static_cast<int>(f));
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const int p = corners[k];
+      const int q = corners[(k + 1) % corners.size()];
+      const int edge = scene.edge_of_side(static_cast<int>(f), static_cast<int>(k));
+      const std::int32_t c = edge >= 0 ? of_edge[edge] : carrier_of(p, q, -1);
+      // An edge may be longer than the side, and its ends in the other order.
+      const Point d = scene.point(q) - scene.point(p);
+      const Point along = scene.point(all[c].points[1]) - scene.point(all[c].points[0]);
+      int axis = 0;
+      d.cwiseAbs().maxCoeff(&axis);
+      sides.push_back({c, (d[axis] > 0) == (along[axis] > 0)});
+    }
+    starts.push_back(static_cast<std::int32_t>(sides.size()));
+  }
+  for (const Object& object : scene.objects()) {
+    std::vector<Point> points;
+    for (const int f : object.faces) {
+      for (const int p : scene.face_points(f)) points.push_back(scene.point(p));
+    }
+    object_boxes.push_back(points.empty() ? Box{} : box_of(points));
+  }
+}
+
+EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers)
+    : g_(generators),
+      scene_(generators.scene()),
+      carriers_(carriers),
+      facet_stamp_(scene_.facets().size(), 0),
+      shadow_index_(
+          scene_.objects().size() + scene_.facets().size() + scene_.faces().size(), -2),
+      middle_stamp_(generators.ridges().size(), 0),
+      form_stamp_(carriers.all.size(), 0),
+      forms_(carriers.all.size()),
+      point_stamp_(scene_.points().size(), 0),
+      beside_last_(scene_.points().size()) {}
+
+void EdgePairs::prepare(int i) {
+  first_ = i;
+  const Ridge& r = g_.ridges()[i];
+  p0_ = scene_.point(r.points[0]);
+  p1_ = scene_.point(r.points[1]);
+  middle_ = 0.5 * (p0_ + p1_);
+  first_box_ = box_of(std::array<Point, 2>{p0_, p1_});
+  ++stamp_;
+  for (const Edge::Side& side : scene_.edges()[r.edge].sides) {
+    facet_stamp_[scene_.faces()[side.face].facet] = stamp_;
+  }
+  for (const std::int64_t key : shadow_keys_) shadow_index_[key] = -2;
+  shadow_keys_.clear();
+  shadows_.clear();
+  recent_.clear();
+}
+
+int EdgePairs::shadow_of(int face) {
+  const Face& f = scene_.faces()[face];
+  const std::int64_t key = occluder_key(g_, face);
+  std::int32_t& index = shadow_index_[key];
+  if (index != -2) return index;
+  shadow_keys_.push_back(key);
+  index = -1;
+  const bool solid = g_.convex_solid(f.object);
+  if (solid ? share(std::span(&f.object, 1), g_.ridges()[first_].objects)
+            : facet_stamp_[f.facet] == stamp_) {
+    return -1;
+  }
+  std::array<Shadow, 2> both{
+      solid ? solid_shadow(g_, f.object, p0_) : facet_shadow(g_, face, p0_),
+      solid ? solid_shadow(g_, f.object, p1_) : facet_shadow(g_, face, p1_)};
+  if (both[0].planes.empty() || both[1].planes.empty()) return -1;
+  index = static_cast<int>(shadows_.size());
+  shadows_.push_back(std::move(both));
+  return index;
+}
+
+// Every segment between the first edge and a set that one convex occluder hides from both
+// its ends passes through that occluder: in the triangle of the two ends and a point of
+// the set, the occluder is met on both sides and is convex.
+bool EdgePairs::hidden(const Box& box) {
+  const CentredBox b = centred(box);
+  const Point middle{b.centre[0], b.centre[1], b.centre[2]};
+  const auto c0 = relative(middle, p0_);
+  const auto c1 = relative(middle, p1_);
+  for (std::size_t k = 0; k < recent_.size(); ++k) {
+    const auto& s = shadows_[recent_[k]];
+    if (s[0].hides(c0, b.half) && s[1].hides(c1, b.half)) {
+      std::rotate(recent_.begin(), recent_.begin() + static_cast<std::ptrdiff_t>(k),
+                  recent_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
+      return true;
+    }
+  }
+  const int face = propose_occluder(g_, middle_, middle, facet_stamp_, stamp_);
+  if (face < 0) return false;
+  const int index = shadow_of(face);
+  if (index < 0) return false;
+  if (std::find(recent_.begin(), recent_.end(), index) != recent_.end()) return false;
+  constexpr std::size_t kRecent = 16;
+  if (recent_.size() >= kRecent) recent_.pop_back();
+  recent_.insert(recent_.begin(), index);
+  const auto& s = shadows_[index];
+  return s[0].hides(c0, b.half) && s[1].hides(c1, b.half);
+}
+
+bool EdgePairs::hides(int shadow, const Point& q0, const Point& q1) const {
+  const auto& s = shadows_[shadow];
+  return s[0].hides(relative(q0, p0_), kPointHalf) &&
+         s[0].hides(relative(q1, p0_), kPointHalf) &&
+         s[1].hides(relative(q0, p1_), kPointHalf) &&
+         s[1].hides(relative(q1, p1_), kPointHalf);
+}
+
+bool EdgePairs::hidden_edge(const Ridge& last) {
+  const Point& q0 = scene_.point(last.points[0]);
+  const Point& q1 = scene_.point(last.points[1]);
+  return std::any_of(recent_.begin(), recent_.end(),
+                     [&](int s) { return hides(s, q0, q1); });
+}
+
+void EdgePairs::visit(int i, std::vector<FoundArc>& out) {
+  prepare(i);
+  const Bvh& tree = g_.ridge_tree();
+  if (tree.empty()) return;
+  std::uint32_t stack[128];
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Bvh::Node& node = tree.node(stack[--top]);
+    if (hidden(node.box)) continue;
+    if (node.count == 0) {
+      stack[top++] = node.first + 1;
+      stack[top++] = node.first;
+      continue;
+    }
+    for (std::uint32_t k = 0; k < node.count; ++k) {
+      const int j = static_cast<int>(tree.items()[node.first + k]);
+      if (j > i) visit_pair(i, j, out);
+    }
+  }
+}
+
+EdgePairs::PlaneValues EdgePairs::values(const PlaneSide& plane, const Point& p0,
+                                         const Point& p1) const {
+  PlaneValues v{plane.value(p0), plane.value(p1), {}, {}};
+  v.sign0 = sign_of(v.at0, plane, p0);
+  v.sign1 = sign_of(v.at1, plane, p1);
+  return v;
+}
+
+void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
+  const Ridge& r = g_.ridges()[i];
+  const Ridge& s = g_.ridges()[j];
+  for (const int o : r.objects) {
+    if (g_.convex_solid(o) && share(std::span(&o, 1), s.objects)) return;
+  }
+  Outer outer;
+  outer.points = {&scene_, r.points, s.points};
+  outer.first = i;
+  outer.last = j;
+  const Point& q0 = scene_.point(s.points[0]);
+  const Point& q1 = scene_.point(s.points[1]);
+  outer.first_planes = {values(r.a, q0, q1), values(r.b, q0, q1)};
+  outer.last_planes = {values(s.a, p0_, p1_), values(s.b, p0_, p1_)};
+  // A line grazes an edge iff the other point is not on the same side of both planes.
+  const auto never_grazes = [](const std::array<PlaneValues, 2>& v) {
+    return v[0].sign0 == v[0].sign1 && v[1].sign0 == v[1].sign1 &&
+           v[0].sign0 == v[1].sign0;
+  };
+  if (never_grazes(outer.first_planes) || never_grazes(outer.last_planes)) return;
+  if (hidden_edge(s)) return;
+  if (!gather(r, s)) return;
+  if (middles_.empty()) return;
+  visit_middles(outer, false, out);
+  // Where the middle edge and the last are coplanar, s is constant: the other way round.
+  Outer turned;
+  turned.points = {&scene_, s.points, r.points};
+  turned.first = j;
+  turned.last = i;
+  turned.first_planes = outer.last_planes;
+  turned.last_planes = outer.first_planes;
+  visit_middles(turned, true, out);
+}
+
+// Faces and ridges that may meet a segment between the two; false when one of them hides
+// all of these.
+bool EdgePairs::gather(const Ridge& first, const Ridge& last) {
+  faces_.clear();
+  middles_.clear();
+  ++pair_stamp_;
+  const Point& q0 = scene_.point(last.points[0]);
+  const Point& q1 = scene_.point(last.points[1]);
+  const PairShaft shaft(p0_, p1_, q0, q1);
+  bool hidden = false;
+  g_.face_tree().traverse(
+      [&](const Box& box) { return !hidden && shaft.may_meet(box); },
+      [&](std::uint32_t item) {
+        if (hidden) return;
+        const int face = static_cast<int>(item);
+        if (!shaft.may_meet(g_.face_box(face))) return;
+        faces_.push_back(face);
+        const int object = scene_.faces()[face].object;
+        if (g_.convex_solid(object) && share(std::span(&object, 1), last.objects)) return;
+        const int shadow = shadow_of(face);
+        hidden = shadow >= 0 && hides(shadow, q0, q1);
+        if (hidden &&
+            std::find(recent_.begin(), recent_.end(), shadow) == recent_.end()) {
+          recent_.insert(recent_.begin(), shadow);
+          if (recent_.size() > 16) recent_.pop_back();
+        }
+      });
+  if (hidden) return false;
+  for (const int face : faces_) {
+    const auto& object = scene_.faces()[face].object;
+    if (g_.convex_solid(object) && (share(std::span(&object, 1), first.objects) ||
+                                    share(std::span(&object, 1), last.objects))) {
+      continue;
+    }
+    for (const auto& side : carriers_.of_face(face)) {
+      const int m = carriers_.ridge[side.carrier];
+      if (m < 0 || middle_stamp_[m] == pair_stamp_) continue;
+      middle_stamp_[m] = pair_stamp_;
+      const Ridge& ridge = g_.ridges()[m];
+      if (&ridge == &first || &ridge == &last) continue;
+      const bool own = std::any_of(
+          ridge.objects.begin(), ridge.objects.end(), [&](const std::int32_t& o) {
+            return g_.convex_solid(o) && (share(std::span(&o, 1), first.objects) ||
+                                          share(std::span(&o, 1), last.objects));
+          });
+      if (!own) middles_.push_back(m);
+    }
+  }
+  return true;
+}
+
+const BoundedForm& EdgePairs::form_of(const Outer& outer, int carrier) {
+  if (form_stamp_[carrier] != pair_stamp_) {
+    form_stamp_[carrier] = pair_stamp_;
+    forms_[carrier] = outer.points.form(carriers_.all[carrier]);
+  }
+  return forms_[carrier];
+}
+
+// The plane of the last edge and a point, at the first edge's ends.
+const BoundedLinear& EdgePairs::beside_last(const Outer& outer, int point) {
+  BoundedLinear& l = beside_last_[point];
+  if (point_stamp_[point] != pair_stamp_) {
+    point_stamp_[point] = pair_stamp_;
+    const auto& o = outer.points;
+    const PlaneSide plane({o.at(o.q[0]), o.at(o.q[1]), o.at(point)});
+    const auto v = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+    l = {v.at0.value, v.at1.value, v.at0.error, v.at1.error, v.sign0, v.sign1};
+  }
+  return l;
+}
+
+void EdgePairs::visit_middles(const Outer& outer, bool turned,
+                              std::vector<FoundArc>& out) {
+  bool fresh = !turned;
+  for (const int m : middles_) {
+    const Ridge& r = g_.ridges()[m];
+    const auto& last = g_.ridges()[outer.last].points;
+    const auto& first = g_.ridges()[outer.first].points;
+    const auto coplanar = [&](const std::array<std::int32_t, 2>& e) {
+      return orient3d(scene_.point(e[0]), scene_.point(e[1]), scene_.point(r.points[0]),
+                      scene_.point(r.points[1])) == Sign::Zero;
+    };
+    // Usually neither is.  A middle edge coplanar with both is left out.
+    if (turned) {
+      if (!coplanar(first) || coplanar(last)) continue;
+    } else if (coplanar(last)) {
+      continue;
+    }
+    if (!fresh) {
+      ++pair_stamp_;
+      fresh = true;
+    }
+    visit_curve(outer, m, out);
+  }
+}
+
+void EdgePairs::visit_curve(const Outer& outer, int middle, std::vector<FoundArc>& out) {
+  const Ridge& r = g_.ridges()[middle];
+  const int carrier = carriers_.of_ridge[middle];
+  const BoundedLinear& w0 = beside_last(outer, r.points[0]);
+  const BoundedLinear& w1 = beside_last(outer, r.points[1]);
+  if (w0.constant() && w1.constant() && w0.sign0 == w1.sign0) return;
+  const EeeCurve curve(outer.points, carriers_.all, carrier, form_of(outer, carrier));
+  bool degenerate = false;
+  find_stretches(outer, r, curve, degenerate);
+  for (std::size_t i = 0; i < stretches_.size(); ++i) {
+    const Stretch stretch = stretches_[i];
+    bool covered = false;
+    find_blocked(outer, r, curve, stretch.part, stretch.f0, covered, degenerate);
+    if (covered) continue;
+    for (const CurveInterval& open : open_parts(curve, stretch.part)) {
+      FoundArc found;
+      found.arc.edges = {g_.ridges()[outer.first].edge, r.edge,
+                         g_.ridges()[outer.last].edge};
+      found.arc.range = {open.from.parameter(), open.to.parameter()};
+      found.arc.self =
+          share(g_.ridges()[outer.first].objects, r.objects) ||
+          share(r.objects, g_.ridges()[outer.last].objects) ||
+          share(g_.ridges()[outer.first].objects, g_.ridges()[outer.last].objects);
+      found.ends = {node_at(outer, curve, middle, open.from),
+                    node_at(outer, curve, middle, open.to)};
+      out.push_back(std::move(found));
+    }
+  }
+}
+
+// The parts of the curve inside the square and of the middle edge, between the outer
+// ones, where all three support.
+void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
+                               const EeeCurve& curve, bool& degenerate) {
+  stretches_.clear();
+  constraints_.clear();
+  const auto& o = outer.points;
+  const BoundedForm& f = curve.form();
+  const Carrier& carrier = carriers_.all[curve.middle()];
+  const auto add = [&](const BoundedLinear& values, CurveCutKind kind,
+                       std::int32_t feature, const std::array<std::int32_t, 3>& plane,
+                       bool times_f0) {
+    Constraint c{values, {kind, false, feature, plane, 0, 1}, times_f0};
+    if (!values.constant()) {
+      // Zero at an end: inside it has the sign of the other.
+      if (c.values.sign0 == Sign::Zero) c.values.sign0 = c.values.sign1;
+      if (c.values.sign1 == Sign::Zero) c.values.sign1 = c.values.sign0;
+    }
+    if (!c.values.constant()) enclose_root(values, c.cut);
+    if (c.values.sign0 == Sign::Zero) degenerate = true;
+    constraints_.push_back(c);
+  };
+  const auto linear = [](const PlaneValues& v) {
+    return BoundedLinear{v.at0.value, v.at1.value, v.at0.error,
+                         v.at1.error, v.sign0,     v.sign1};
+  };
+  // 0, 1: F0 and F1, of opposite signs inside the square.
+  for (int b = 0; b < 2; ++b) {
+    BoundedLinear l{f.f[0][b], f.f[1][b], f.error, f.error, {}, {}};
+    for (int a = 0; a < 2; ++a) {
+      Sign& s = a == 0 ? l.sign0 : l.sign1;
+      if (std::abs(f.f[a][b]) > f.error) {
+        s = internal::sign_of(f.f[a][b]);
+      } else {
+        s = orient3d(o.at(o.p[a]), o.at(o.q[b]), o.at(carrier.points[0]),
+                     o.at(carrier.points[1]));
+      }
+    }
+    add(l, CurveCutKind::Far, o.q[b], {}, false);
+  }
+  const auto same_everywhere = [](const Constraint& x, const Constraint& y) {
+    return x.values.constant() && y.values.constant() && x.values.sign0 == y.values.sign0;
+  };
+  if (degenerate || same_everywhere(constraints_[0], constraints_[1])) return;
+  // 2, 3: the middle edge's ends, on opposite sides of the plane of P(s) and the last
+  // edge.
+  for (const std::int32_t w : middle.points) {
+    add(beside_last(outer, w), CurveCutKind::Middle, w, {}, false);
+  }
+  if (degenerate || same_everywhere(constraints_[2], constraints_[3])) return;
+  // 4, 5: planes at the middle edge; 6, 7: at the last, at P(s).
+  const std::array<std::int32_t, 3> middle_planes[2] = {
+      {middle.points[1], middle.points[0], middle.thirds[0]},
+      {middle.points[0], middle.points[1], middle.thirds[1]}};
+  add(linear(values(middle.a, o.at(o.p[0]), o.at(o.p[1]))), CurveCutKind::OnPlane,
+      middle.facets[0], middle_planes[0], false);
+  add(linear(values(middle.b, o.at(o.p[0]), o.at(o.p[1]))), CurveCutKind::OnPlane,
+      middle.facets[1], middle_planes[1], false);
+  if (degenerate || same_everywhere(constraints_[4], constraints_[5])) return;
+  const Ridge& last = g_.ridges()[outer.last];
+  for (int k = 0; k < 2; ++k) {
+    add(linear(outer.last_planes[k]), CurveCutKind::OnPlane, last.facets[k],
+        {last.points[1 - k], last.points[k], last.thirds[k]}, false);
+  }
+  if (degenerate || same_everywhere(constraints_[6], constraints_[7])) return;
+  // 8, 9: planes at the first edge, at Q(t(s)).
+  const Ridge& first = g_.ridges()[outer.first];
+  for (int k = 0; k < 2; ++k) {
+    const PlaneValues& v = outer.first_planes[k];
+    const std::array<std::int32_t, 3> plane{first.points[1 - k], first.points[k],
+                                            first.thirds[k]};
+    if (v.sign0 == v.sign1) {
+      // Of one sign all along the last edge, whatever t.
+      add(linear(v), CurveCutKind::OnFirst, first.facets[k], plane, false);
+    } else {
+      add(curve.at_last_edge(v.at0, v.at1, plane), CurveCutKind::OnFirst, first.facets[k],
+          plane, true);
+    }
+  }
+  if (degenerate) return;
+
+  const Sign beside = orient3d(o.at(o.q[0]), o.at(o.q[1]), o.at(carrier.points[0]),
+                               o.at(carrier.points[1]));
+  std::array<const Constraint*, 10> order;
+  int count = 0;
+  for (const Constraint& c : constraints_) {
+    if (!c.values.constant()) order[count++] = &c;
+  }
+  std::sort(order.begin(), order.begin() + count,
+            [&](const Constraint* x, const Constraint* y) {
+              return curve.compare(x->cut, y->cut) == Sign::Negative;
+            });
+  std::array<Sign, 10> sign;
+  for (int k = 0; k < 10; ++k) sign[k] = constraints_[k].values.sign0;
+  CurveCut from = curve_start();
+  for (int k = 0; k <= count; ++k) {
+    const CurveCut to = k < count ? order[k]->cut : curve_end();
+    const auto at_first = [&](int c) {
+      return constraints_[c].times_f0 ? sign[c] * sign[0] : sign[c];
+    };
+    if (sign[0] != sign[1] && sign[2] != sign[3] && sign[4] != sign[5] &&
+        sign[6] != sign[7] && at_first(8) != at_first(9) && sign[0] == beside &&
+        curve.compare(from, to) == Sign::Negative) {
+      stretches_.push_back({{from, to}, sign[0]});
+    }
+    if (k == count) break;
+    const auto c = static_cast<std::size_t>(order[k] - constraints_.data());
+    sign[c] = constraints_[c].values.sign1;
+    from = to;
+  }
+}
+
+bool EdgePairs::skips(const Outer& outer, const Ridge& middle, int face) const {
+  const Face& f = scene_.faces()[face];
+  for (const Ridge* r : {&g_.ridges()[outer.first], &middle, &g_.ridges()[outer.last]}) {
+    if (std::find(r->objects.begin(), r->objects.end(), f.object) == r->objects.end()) {
+      continue;
+    }
+    // A line that supports a convex solid does not meet it elsewhere.
+    if (g_.convex_solid(f.object)) return true;
+    for (const Edge::Side& side : scene_.edges()[r->edge].sides) {
+      if (scene_.faces()[side.face].facet == f.facet) return true;
+    }
+  }
+  return false;
+}
+
+void EdgePairs::find_blocked(const Outer& outer, const Ridge& middle,
+                             const EeeCurve& curve, const CurveInterval& stretch, Sign f0,
+                             bool& covered, bool& degenerate) {
+  closed_.clear();
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    const int face = faces_[i];
+    if (skips(outer, middle, face)) continue;
+    const std::size_t before = closed_.size();
+    const int object = scene_.faces()[face].object;
+    // From outside a closed solid a segment must enter it.
+    const bool enters_only = scene_.objects()[object].closed &&
+                             !boxes_meet(carriers_.object_boxes[object], first_box_);
+    block(outer, curve, face, stretch, f0, Sign::Positive, degenerate);
+    if (!enters_only) {
+      block(outer, curve, face, stretch, f0, Sign::Negative, degenerate);
+    }
+    for (std::size_t k = before; k < closed_.size(); ++k) {
+      if (closed_[k].from.same_as(stretch.from) && closed_[k].to.same_as(stretch.to)) {
+        covered = true;
+        std::swap(faces_[i], faces_[i / 2]);  // earlier the next time
+        return;
+      }
+    }
+  }
+}
+
+// Adds the parts of a stretch where the segment passes the face from its front (entry
+// Positive) or from its back.
+void EdgePairs::block(const Outer& outer, const EeeCurve& curve, int face,
+                      const CurveInterval& stretch, Sign f0, Sign entry,
+                      bool& degenerate) {
+  const PlaneSide& plane = g_.face_plane(face);
+  const auto& o = outer.points;
+  const PlaneValues p = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+  if (p.sign0 != entry && p.sign1 != entry) return;
+  const PlaneValues q = values(plane, o.at(o.q[0]), o.at(o.q[1]));
+  if (q.sign0 != -entry && q.sign1 != -entry) return;
+  parts_.assign(1, stretch);
+  const int facet = scene_.faces()[face].facet;
+  const std::array<std::int32_t, 3> points = plane_points(scene_, face);
+  // Cuts a linear polynomial's part of the wanted sign out of the (single) part.
+  const auto restrict_to = [&](const BoundedLinear& l, Sign wanted, CurveCutKind kind) {
+    if (!l.ever(wanted)) return false;
+    if (l.sign0 != -wanted && l.sign1 != -wanted) return true;
+    CurveCut cut{kind, false, facet, points, 0, 1};
+    enclose_root(l, cut);
+    CurveInterval& part = parts_[0];
+    if (l.sign0 == wanted) {
+      if (curve.compare(cut, part.to) == Sign::Negative) part.to = cut;
+    } else if (curve.compare(part.from, cut) == Sign::Negative) {
+      part.from = cut;
+    }
+    return curve.compare(part.from, part.to) == Sign::Negative;
+  };
+  if (p.sign0 != p.sign1) {
+    const BoundedLinear l{p.at0.value, p.at1.value, p.at0.error,
+                          p.at1.error, p.sign0,     p.sign1};
+    if (!restrict_to(l, entry, CurveCutKind::OnPlane)) return;
+  }
+  if (q.sign0 != q.sign1) {
+    if (!restrict_to(curve.at_last_edge(q.at0, q.at1, points), -entry * f0,
+                     CurveCutKind::OnFar)) {
+      return;
+    }
+  }
+  // From the front to the back the sides, counter-clockwise, have negative forms, which
+  // have the sign of H times that of F0 - F1, and that is the sign of F0.
+  for (const auto& side : carriers_.of_face(face)) {
+    const Sign wanted = side.forward ? -entry * f0 : entry * f0;
+    next_.clear();
+    bool zero = false;
+    for (const CurveInterval& part : parts_) {
+      curve.where(side.carrier, form_of(outer, side.carrier), wanted, part, next_, zero);
+    }
+    degenerate |= zero;
+    parts_.swap(next_);
+    if (parts_.empty()) return;
+  }
+  closed_.insert(closed_.end(), parts_.begin(), parts_.end());
+}
+
+std::vector<CurveInterval> EdgePairs::open_parts(const EeeCurve& curve,
+                                                 const CurveInterval& stretch) {
+  std::sort(closed_.begin(), closed_.end(),
+            [&](const CurveInterval& a, const CurveInterval& b) {
+              return curve.compare(a.from, b.from) == Sign::Negative;
+            });
+  std::vector<CurveInterval> open;
+  CurveCut at = stretch.from;
+  for (const CurveInterval& c : closed_) {
+    if (curve.compare(at, c.from) == Sign::Negative) open.push_back({at, c.from});
+    if (curve.compare(at, c.to) == Sign::Negative) at = c.to;
+  }
+  if (curve.compare(at, stretch.to) == Sign::Negative) open.push_back({at, stretch.to});
+  return open;
+}
+
+FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int middle,
+                             const CurveCut& cut) {
+  const auto edge = [&](int ridge) {
+    return Generator{GeneratorKind::Edge, g_.ridges()[ridge].edge};
+  };
+  const auto vertex = [](std::int32_t p) { return Generator{GeneratorKind::Vertex, p}; };
+  const Generator first = edge(outer.first);
+  const Generator between = edge(middle);
+  const Generator last = edge(outer.last);
+  FoundNode node;
+  const auto set = [&](NodeKind kind, std::initializer_list<Generator> generators) {
+    node.kind = kind;
+    node.count = static_cast<std::uint8_t>(generators.size());
+    std::copy(generators.begin(), generators.end(), node.generators.begin());
+  };
+  switch (cut.kind) {
+    case CurveCutKind::Start:
+      set(NodeKind::VEE, {vertex(outer.points.p[0]), between, last});
+      break;
+    case CurveCutKind::End:
+      set(NodeKind::VEE, {vertex(outer.points.p[1]), between, last});
+      break;
+    case CurveCutKind::Far:
+      set(NodeKind::VEE, {vertex(cut.feature), between, first});
+      break;
+    case CurveCutKind::Middle:
+      set(NodeKind::EVE, {first, vertex(cut.feature), last});
+      break;
+    case CurveCutKind::OnFirst:
+      set(NodeKind::FEE, {{GeneratorKind::Face, cut.feature}, between, last});
+      break;
+    case CurveCutKind::OnPlane: {
+      const Generator face{GeneratorKind::Face, cut.feature};
+      const auto& at_middle = g_.ridges()[middle].facets;
+      const auto& at_last = g_.ridges()[outer.last].facets;
+      if (cut.feature == at_middle[0] || cut.feature == at_middle[1]) {
+        set(NodeKind::FEE, {first, face, last});
+      } else if (cut.feature == at_last[0] || cut.feature == at_last[1]) {
+        set(NodeKind::FEE, {first, between, face});
+      } else {
+        set(NodeKind::Pierce, {first, face, between, last});
+      }
+      break;
+    }
+    case CurveCutKind::OnFar:
+      set(NodeKind::Pierce, {first, between, {GeneratorKind::Face, cut.feature}, last});
+      break;
+    case CurveCutKind::Crossing: {
+      const int r = carriers_.ridge[cut.feature];
+      const Generator fourth =
+          r >= 0 ? edge(r)
+                 : Generator{GeneratorKind::Edge, carriers_.all[cut.feature].edge};
+      // Where two of them are coplanar only one line meets all four.
+      const auto coplanar = [&](const std::array<std::int32_t, 2>& e, int carrier) {
+        const auto& g = carriers_.all[carrier].points;
+        const auto& o = outer.points;
+        return orient3d(o.at(e[0]), o.at(e[1]), o.at(g[0]), o.at(g[1])) == Sign::Zero;
+      };
+      const bool single = coplanar(outer.points.p, curve.middle()) ||
+                          coplanar(outer.points.p, cut.feature) ||
+                          coplanar(outer.points.q, cut.feature);
+      node.rising = cut.rising && !single;
+      if (curve.order_at(cut, cut.feature, form_of(outer, cut.feature)) ==
+          Sign::Positive) {
+        set(NodeKind::EEEE, {first, fourth, between, last});
+      } else {
+        set(NodeKind::EEEE, {first, between, fourth, last});
+      }
+      break;
+    }
+  }
+  // One direction for a line, whichever way it was found; VEE begins with its vertex.
+  if (node.kind != NodeKind::VEE &&
+      node.generators[node.count - 1] < node.generators[0]) {
+    std::reverse(node.generators.begin(), node.generators.begin() + node.count);
+  }
+  const double s = cut.parameter();
+  const double t = curve.last_parameter(s);
+  const auto& o = outer.points;
+  node.segment = {o.at(o.p[0]) + s * (o.at(o.p[1]) - o.at(o.p[0])),
+                  o.at(o.q[0]) + t * (o.at(o.q[1]) - o.at(o.q[0]))};
+  const auto objects = [&](const Generator& x) -> std::vector<std::int32_t> {
+    if (x.kind == GeneratorKind::Vertex) {
+      const auto at = g_.objects_at(x.id);
+      return {at.begin(), at.end()};
+    }
+    if (x.kind == GeneratorKind::Face) return {scene_.facets()[x.id].object};
+    if (x.id < 0) return {};
+    const int r = g_.ridge_of_edge(x.id);
+    if (r >= 0) return g_.ridges()[r].objects;
+    return {scene_.edges()[x.id].object};
+  };
+  for (int a = 0; a < node.count; ++a) {
+    for (int b = a + 1; b < node.count; ++b) {
+      node.self |= share(objects(node.generators[a]), objects(node.generators[b]));
+    }
+  }
+  return node;
+}
+
+}  // namespace sightline::internal

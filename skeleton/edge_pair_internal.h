@@ -1,0 +1,143 @@
+// The EEE line sets between two outer edges: every middle edge's curve in their square of
+// parameters, cut down to where all three support and nothing blocks.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "skeleton/eee_curve_internal.h"
+#include "skeleton/generators_internal.h"
+#include "skeleton/shaft_internal.h"
+#include "skeleton/skeleton.h"
+
+namespace sightline::internal {
+
+/// Lines of edges and flat sides, once per scene; immutable.
+struct Carriers {
+  explicit Carriers(const Generators& generators);
+
+  std::vector<Carrier> all;
+  std::vector<std::int32_t> of_ridge;
+  std::vector<std::int32_t> ridge;  ///< of a carrier, -1 for none
+  /// Sides of face f: positions starts[f] to starts[f + 1].
+  struct Side {
+    std::int32_t carrier;
+    bool forward;  ///< the face runs along it from its smaller point id
+  };
+  std::vector<std::int32_t> starts;
+  std::vector<Side> sides;
+  std::vector<Box> object_boxes;
+
+  [[nodiscard]] std::span<const Side> of_face(int face) const {
+    return {sides.data() + starts[face],
+            static_cast<std::size_t>(starts[face + 1] - starts[face])};
+  }
+};
+
+/// A node as it is found, by what determines its line.
+struct FoundNode {
+  NodeKind kind = NodeKind::EEEE;
+  bool self = false, end = false;
+  /// EEEE: which of the two lines.
+  bool rising = false;
+  std::uint8_t count = 0;
+  std::array<Generator, 4> generators{};
+  std::array<Point, 2> segment;
+};
+
+struct FoundArc {
+  EeeArc arc;  ///< without node numbers
+  std::array<FoundNode, 2> ends;
+};
+
+/// Visits pairs of ridges; keeps scratch, so one per thread.
+class EdgePairs {
+ public:
+  EdgePairs(const Generators& generators, const Carriers& carriers);
+
+  /// Appends the arcs between ridge i and all ridges of higher number.
+  void visit(int i, std::vector<FoundArc>& out);
+
+ private:
+  struct PlaneValues {
+    BoundedValue at0, at1;
+    Sign sign0, sign1;
+  };
+  struct Outer {  // one order of the two edges
+    OuterPair points;
+    int first, last;  // ridges
+    // Planes a and b of the first edge at the last one's points and the reverse.
+    std::array<PlaneValues, 2> first_planes, last_planes;
+  };
+
+  void prepare(int i);
+  [[nodiscard]] int shadow_of(int face);
+  [[nodiscard]] bool hides(int shadow, const Point& q0, const Point& q1) const;
+  [[nodiscard]] bool hidden(const Box& box);
+  [[nodiscard]] bool hidden_edge(const Ridge& last);
+  void visit_pair(int i, int j, std::vector<FoundArc>& out);
+  [[nodiscard]] bool gather(const Ridge& first, const Ridge& last);
+  void visit_middles(const Outer& outer, bool turned, std::vector<FoundArc>& out);
+  void visit_curve(const Outer& outer, int middle, std::vector<FoundArc>& out);
+  void find_stretches(const Outer& outer, const Ridge& middle, const EeeCurve& curve,
+                      bool& degenerate);
+  void find_blocked(const Outer& outer, const Ridge& middle, const EeeCurve& curve,
+                    const CurveInterval& stretch, Sign f0, bool& covered,
+                    bool& degenerate);
+  void block(const Outer& outer, const EeeCurve& curve, int face,
+             const CurveInterval& stretch, Sign f0, Sign entry, bool& degenerate);
+  [[nodiscard]] std::vector<CurveInterval> open_parts(const EeeCurve& curve,
+                                                      const CurveInterval& stretch);
+  [[nodiscard]] FoundNode node_at(const Outer& outer, const EeeCurve& curve, int middle,
+                                  const CurveCut& cut);
+  [[nodiscard]] bool skips(const Outer& outer, const Ridge& middle, int face) const;
+
+  [[nodiscard]] PlaneValues values(const PlaneSide& plane, const Point& p0,
+                                   const Point& p1) const;
+  [[nodiscard]] const BoundedForm& form_of(const Outer& outer, int carrier);
+  [[nodiscard]] const BoundedLinear& beside_last(const Outer& outer, int point);
+
+  const Generators& g_;
+  const Scene& scene_;
+  const Carriers& carriers_;
+
+  // The first edge at hand, and occluders seen from both its ends.
+  int first_ = -1;
+  Point p0_, p1_, middle_;
+  Box first_box_;
+  std::vector<std::uint32_t> facet_stamp_;
+  std::uint32_t stamp_ = 0;
+  std::vector<std::array<Shadow, 2>> shadows_;
+  std::vector<std::int32_t> shadow_index_;  // by occluder, -2 unknown, -1 none
+  std::vector<std::int64_t> shadow_keys_;   // to reset
+  std::vector<std::int32_t> recent_;
+
+  // The pair at hand.
+  std::vector<std::int32_t> faces_;
+  std::vector<std::int32_t> middles_;
+  std::uint32_t pair_stamp_ = 0;
+  std::vector<std::uint32_t> middle_stamp_;
+  std::vector<std::uint32_t> form_stamp_;
+  std::vector<BoundedForm> forms_;
+  std::vector<std::uint32_t> point_stamp_;
+  std::vector<BoundedLinear> beside_last_;
+
+  // The curve at hand.
+  struct Constraint {
+    BoundedLinear values;
+    CurveCut cut;
+    bool times_f0 = false;  // its sign is that of the values times that of F0
+  };
+  std::vector<Constraint> constraints_;
+  struct Stretch {
+    CurveInterval part;
+    Sign f0;
+  };
+  std::vector<Stretch> stretches_;
+  std::vector<CurveInterval> closed_, parts_, next_;
+};
+
+}  // namespace sightline::internal

@@ -1,0 +1,114 @@
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "skeleton/edge_pair_internal.h"
+#include "skeleton/eee_skeleton_internal.h"
+#include "skeleton/parallel_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+// What tells a node of general position from all others: its kind, which generator is a
+// face, which of two lines, and the generators' ids.
+struct LineKey {
+  std::array<std::int32_t, 4> ids;
+  std::uint32_t tag;
+  friend bool operator==(const LineKey&, const LineKey&) = default;
+};
+
+LineKey key_of(NodeKind kind, bool second, std::span<const Generator> generators) {
+  LineKey key{{-1, -1, -1, -1}, static_cast<std::uint32_t>(kind) | (second ? 256u : 0u)};
+  for (std::size_t i = 0; i < generators.size() && i < 4; ++i) {
+    key.ids[i] = generators[i].id;
+    if (generators[i].kind == GeneratorKind::Face) key.tag |= 1024u << i;
+  }
+  return key;
+}
+
+struct LineHash {
+  std::size_t operator()(const LineKey& k) const {
+    std::uint64_t h = k.tag;
+    for (const std::int32_t id : k.ids) {
+      h = (h ^ static_cast<std::uint32_t>(id)) * 0x9e3779b97f4a7c15u;
+      h ^= h >> 29;
+    }
+    return h;
+  }
+};
+
+// One node for each line, also for those that the EV part has found.
+class LineJoiner {
+ public:
+  explicit LineJoiner(Skeleton& skeleton) : out_(skeleton) {
+    for (std::uint32_t i = 0; i < out_.nodes.size(); ++i) {
+      const SkeletonNode& node = out_.nodes[i];
+      if (node.kind != NodeKind::VEE && node.kind != NodeKind::EVE) continue;
+      known_.try_emplace(key_of(node.kind, false, out_.generators(node)), i);
+    }
+  }
+
+  void add(FoundArc& found) {
+    for (int k = 0; k < 2; ++k) found.arc.nodes[k] = add_node(found.ends[k]);
+    out_.eee_arcs.push_back(found.arc);
+  }
+
+ private:
+  std::uint32_t add_node(const FoundNode& found) {
+    const std::span<const Generator> generators(found.generators.data(), found.count);
+    const auto [at, fresh] =
+        known_.try_emplace(key_of(found.kind, found.rising, generators),
+                           static_cast<std::uint32_t>(out_.nodes.size()));
+    if (!fresh) return at->second;
+    SkeletonNode node;
+    node.kind = found.kind;
+    node.self = found.self;
+    node.end = found.end;
+    node.second = found.rising;
+    node.first_generator = static_cast<std::uint32_t>(out_.generator_pool.size());
+    node.generator_count = found.count;
+    node.segment = found.segment;
+    out_.generator_pool.insert(out_.generator_pool.end(), generators.begin(),
+                               generators.end());
+    out_.nodes.push_back(node);
+    return at->second;
+  }
+
+  Skeleton& out_;
+  std::unordered_map<LineKey, std::uint32_t, LineHash> known_;
+};
+
+}  // namespace
+
+void add_eee(const Generators& generators, const SkeletonRequest& request,
+             std::chrono::steady_clock::time_point start, std::array<double, 2> progress,
+             Skeleton& skeleton) {
+  const Carriers carriers(generators);
+  const std::size_t count = generators.ridges().size();
+  skeleton.edges_asked = count;
+  std::vector<std::optional<std::vector<FoundArc>>> found(count);
+  for_each_parallel(
+      count, request, start, progress, skeleton.predicates,
+      [&] { return std::make_unique<EdgePairs>(generators, carriers); },
+      [&](EdgePairs& pairs, std::size_t i) {
+        std::vector<FoundArc> arcs;
+        pairs.visit(static_cast<int>(i), arcs);
+        std::sort(arcs.begin(), arcs.end(), [](const FoundArc& a, const FoundArc& b) {
+          return std::pair(a.arc.edges, a.arc.range) <
+                 std::pair(b.arc.edges, b.arc.range);
+        });
+        found[i] = std::move(arcs);
+      });
+  LineJoiner joiner(skeleton);
+  for (auto& arcs : found) {
+    if (!arcs) continue;
+    ++skeleton.edges_done;
+    for (FoundArc& arc : *arcs) joiner.add(arc);
+    arcs.reset();
+  }
+  skeleton.complete = skeleton.complete && skeleton.edges_done == skeleton.edges_asked;
+}
+
+}  // namespace sightline::internal
