@@ -14,6 +14,10 @@ std::array<double, 3> relative(const Point& p, const Point& origin) {
 
 constexpr std::array<double, 3> kPointHalf{0, 0, 0};
 
+// Squared ratio of a group's half diagonal to its distance above which no occluder is
+// looked for: speed only.
+constexpr double kWideView = 0.1;
+
 bool share(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
   return std::any_of(a.begin(), a.end(), [&](std::int32_t x) {
     return std::find(b.begin(), b.end(), x) != b.end();
@@ -149,10 +153,12 @@ Carriers::Carriers(const Generators& g) {
   }
 }
 
-EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers)
+EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
+                     const EeeSelection& selection)
     : g_(generators),
       scene_(generators.scene()),
       carriers_(carriers),
+      selection_(selection),
       facet_stamp_(scene_.facets().size(), 0),
       shadow_index_(
           scene_.objects().size() + scene_.facets().size() + scene_.faces().size(), -2),
@@ -216,6 +222,11 @@ bool EdgePairs::hidden(const Box& box) {
       return true;
     }
   }
+  // A group that fills much of the view is not hidden by one solid.
+  const Point away = middle - middle_;
+  const double extent =
+      b.half[0] * b.half[0] + b.half[1] * b.half[1] + b.half[2] * b.half[2];
+  if (extent > kWideView * away.squaredNorm()) return false;
   const int face = propose_occluder(g_, middle_, middle, facet_stamp_, stamp_);
   if (face < 0) return false;
   const int index = shadow_of(face);
@@ -244,6 +255,7 @@ bool EdgePairs::hidden_edge(const Ridge& last) {
 }
 
 void EdgePairs::visit(int i, std::vector<FoundArc>& out) {
+  if (!selection_.has(i)) return;
   prepare(i);
   const Bvh& tree = g_.ridge_tree();
   if (tree.empty()) return;
@@ -260,7 +272,9 @@ void EdgePairs::visit(int i, std::vector<FoundArc>& out) {
     }
     for (std::uint32_t k = 0; k < node.count; ++k) {
       const int j = static_cast<int>(tree.items()[node.first + k]);
-      if (j > i) visit_pair(i, j, out);
+      if (j > i && selection_.has(j) && selection_.has_outer(i, j)) {
+        visit_pair(i, j, out);
+      }
     }
   }
 }
@@ -294,7 +308,7 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   };
   if (never_grazes(outer.first_planes) || never_grazes(outer.last_planes)) return;
   if (hidden_edge(s)) return;
-  if (!gather(r, s)) return;
+  if (!gather(i, j)) return;
   if (middles_.empty()) return;
   visit_middles(outer, false, out);
   // Where the middle edge and the last are coplanar, s is constant: the other way round.
@@ -309,7 +323,9 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
 
 // Faces and ridges that may meet a segment between the two; false when one of them hides
 // all of these.
-bool EdgePairs::gather(const Ridge& first, const Ridge& last) {
+bool EdgePairs::gather(int i, int j) {
+  const Ridge& first = g_.ridges()[i];
+  const Ridge& last = g_.ridges()[j];
   faces_.clear();
   middles_.clear();
   ++pair_stamp_;
@@ -335,6 +351,7 @@ bool EdgePairs::gather(const Ridge& first, const Ridge& last) {
         }
       });
   if (hidden) return false;
+  const bool outer_through = selection_.goes_through(i) || selection_.goes_through(j);
   for (const int face : faces_) {
     const auto& object = scene_.faces()[face].object;
     if (g_.convex_solid(object) && (share(std::span(&object, 1), first.objects) ||
@@ -352,7 +369,9 @@ bool EdgePairs::gather(const Ridge& first, const Ridge& last) {
             return g_.convex_solid(o) && (share(std::span(&o, 1), first.objects) ||
                                           share(std::span(&o, 1), last.objects));
           });
-      if (!own) middles_.push_back(m);
+      if (!own && selection_.has(m) && (outer_through || selection_.goes_through(m))) {
+        middles_.push_back(m);
+      }
     }
   }
   return true;

@@ -53,10 +53,27 @@ struct FoundArc {
   std::array<FoundNode, 2> ends;
 };
 
+/// Which ridges may take which part; empty means all.
+struct EeeSelection {
+  std::vector<std::uint8_t> allowed;               ///< as any of the three
+  std::array<std::vector<std::uint8_t>, 2> outer;  ///< one of each
+  std::vector<std::uint8_t> through;               ///< one of the three at least
+
+  [[nodiscard]] bool has(int ridge) const { return allowed.empty() || allowed[ridge]; }
+  [[nodiscard]] bool has_outer(int i, int j) const {
+    return outer[0].empty() || (outer[0][i] && outer[1][j]) ||
+           (outer[0][j] && outer[1][i]);
+  }
+  [[nodiscard]] bool goes_through(int ridge) const {
+    return through.empty() || through[ridge];
+  }
+};
+
 /// Visits pairs of ridges; keeps scratch, so one per thread.
 class EdgePairs {
  public:
-  EdgePairs(const Generators& generators, const Carriers& carriers);
+  EdgePairs(const Generators& generators, const Carriers& carriers,
+            const EeeSelection& selection);
 
   /// Appends the arcs between ridge i and all ridges of higher number.
   void visit(int i, std::vector<FoundArc>& out);
@@ -79,7 +96,7 @@ class EdgePairs {
   [[nodiscard]] bool hidden(const Box& box);
   [[nodiscard]] bool hidden_edge(const Ridge& last);
   void visit_pair(int i, int j, std::vector<FoundArc>& out);
-  [[nodiscard]] bool gather(const Ridge& first, const Ridge& last);
+  [[nodiscard]] bool gather(int i, int j);
   void visit_middles(const Outer& outer, bool turned, std::vector<FoundArc>& out);
   void visit_curve(const Outer& outer, int middle, std::vector<FoundArc>& out);
   void find_stretches(const Outer& outer, const Ridge& middle, const EeeCurve& curve,
@@ -103,6 +120,7 @@ class EdgePairs {
   const Generators& g_;
   const Scene& scene_;
   const Carriers& carriers_;
+  const EeeSelection& selection_;
 
   // The first edge at hand, and occluders seen from both its ends.
   int first_ = -1;

@@ -61,6 +61,7 @@ BoundedForm OuterPair::form(const Carrier& g) const {
     for (int b = 0; b < 2; ++b) {
       const BoundedValue v = plane.value(at(q[b]));
       out.f[a][b] = v.value;
+      out.zero[a][b] = v.error == 0;
       out.error = std::max(out.error, v.error);
       out.largest = std::max(out.largest, std::abs(v.value));
     }
@@ -218,12 +219,19 @@ void EeeCurve::where(int carrier, const BoundedForm& form, Sign wanted,
   const Bernstein h = quadratic(form_, form);
   const double a = in.from.lo;
   const double b = in.to.hi;
+  // H vanishes at an end of the edge when a factor of either product does.
+  const auto vanishes = [&](int k) {
+    return (form_.zero[k][0] || form.zero[k][1]) && (form_.zero[k][1] || form.zero[k][0]);
+  };
   const double ha = h.blossom(a, a);
   const double hm = h.blossom(a, b);
   const double hb = h.blossom(b, b);
   Sign sa = certain_sign(ha, h.error);
   Sign sm = certain_sign(hm, h.error);
   Sign sb = certain_sign(hb, h.error);
+  // Then what is left is linear, and has the sign of the middle coefficient there.
+  if (a == 0 && vanishes(0)) sa = sm;
+  if (b == 1 && vanishes(1)) sb = sm;
   if (sa == sm && sm == sb && sa != Sign::Zero) {
     ++stage_counts.by_double;
     if (sa == wanted) out.push_back(in);

@@ -31,10 +31,11 @@ struct Carrier {
   std::int32_t edge;                   ///< scene edge, -1 for a flat side
 };
 
-/// The corner values of a form, each off by at most `error`; magnitudes at most
-/// `largest`.
+/// The corner values of a form, each off by at most `error`, some known to be 0 exactly;
+/// magnitudes at most `largest`.
 struct BoundedForm {
   double f[2][2];
+  bool zero[2][2];
   double error;
   double largest;
 };

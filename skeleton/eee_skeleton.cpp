@@ -80,18 +80,49 @@ class LineJoiner {
   std::unordered_map<LineKey, std::uint32_t, LineHash> known_;
 };
 
+std::vector<std::uint8_t> ridges_on(const Generators& g,
+                                    const std::vector<int>& objects) {
+  std::vector<std::uint8_t> on;
+  if (objects.empty()) return on;
+  for (const Ridge& r : g.ridges()) {
+    on.push_back(std::any_of(r.objects.begin(), r.objects.end(), [&](int o) {
+      return std::find(objects.begin(), objects.end(), o) != objects.end();
+    }));
+  }
+  return on;
+}
+
+EeeSelection selection_of(const Generators& g, const SkeletonRequest& request) {
+  EeeSelection selection;
+  selection.outer = {ridges_on(g, request.outer_objects[0]),
+                     ridges_on(g, request.outer_objects[1])};
+  selection.through = ridges_on(g, request.through_objects);
+  if (request.region) {
+    const auto inside = [&](const Point& p) {
+      return (p.array() >= (*request.region)[0].array()).all() &&
+             (p.array() <= (*request.region)[1].array()).all();
+    };
+    for (const Ridge& r : g.ridges()) {
+      selection.allowed.push_back(inside(g.scene().point(r.points[0])) &&
+                                  inside(g.scene().point(r.points[1])));
+    }
+  }
+  return selection;
+}
+
 }  // namespace
 
 void add_eee(const Generators& generators, const SkeletonRequest& request,
              std::chrono::steady_clock::time_point start, std::array<double, 2> progress,
              Skeleton& skeleton) {
   const Carriers carriers(generators);
+  const EeeSelection selection = selection_of(generators, request);
   const std::size_t count = generators.ridges().size();
   skeleton.edges_asked = count;
   std::vector<std::optional<std::vector<FoundArc>>> found(count);
   for_each_parallel(
       count, request, start, progress, skeleton.predicates,
-      [&] { return std::make_unique<EdgePairs>(generators, carriers); },
+      [&] { return std::make_unique<EdgePairs>(generators, carriers, selection); },
       [&](EdgePairs& pairs, std::size_t i) {
         std::vector<FoundArc> arcs;
         pairs.visit(static_cast<int>(i), arcs);

@@ -151,8 +151,9 @@ Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
   const StageCounts before = thread_stage_counts();
   const Generators generators(scene, internal::threads_of(request));
   skeleton.predicates = internal::difference(thread_stage_counts(), before);
-  build_ev(generators, request, start, 0.3, skeleton);
-  internal::add_eee(generators, request, start, {0.3, 1}, skeleton);
+  const double share = !request.ev ? 0 : request.eee ? 0.3 : 1;
+  if (request.ev) build_ev(generators, request, start, share, skeleton);
+  if (request.eee) internal::add_eee(generators, request, start, {share, 1}, skeleton);
   return skeleton;
 }
 

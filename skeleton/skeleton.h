@@ -86,10 +86,18 @@ struct EeeArc {
 
 /// Which part of the skeleton is wanted.
 struct SkeletonRequest : Request {
-  /// Only arcs whose vertex is on one of these objects; empty means all.
+  /// Kinds of line sets that build_skeleton() looks for; with EV come the VV, VEE, FvE
+  /// and EVE nodes, with EEE the VEE, EVE, EEEE and FEE nodes.
+  bool ev = true, eee = true;
+  /// Only EV arcs whose vertex is on one of these objects; empty means all.
   std::vector<int> vertex_objects;
-  /// Only arcs whose edge is on one of these objects; empty means all.
+  /// Only EV arcs whose edge is on one of these objects; empty means all.
   std::vector<int> edge_objects;
+  /// Only EEE arcs whose outer edges are one on an object of the first list, the other on
+  /// one of the second; both empty means all.
+  std::array<std::vector<int>, 2> outer_objects;
+  /// Only EEE arcs with an edge on one of these objects; empty means all.
+  std::vector<int> through_objects;
   /// Only generators inside this box (corner of smallest, of largest coordinates).
   std::optional<std::array<Point, 2>> region;
 };
@@ -118,8 +126,8 @@ struct Skeleton {
 [[nodiscard]] Skeleton build_ev_skeleton(const Scene& scene,
                                          const SkeletonRequest& request = {});
 
-/// Builds the whole skeleton: the EV part as build_ev_skeleton, then the EEE arcs with
-/// their VEE, EVE, EEEE and FEE nodes.
+/// Builds the kinds asked for: the EV part as build_ev_skeleton, then the EEE arcs with
+/// the nodes at their ends, which they share with the EV part where both are asked.
 [[nodiscard]] Skeleton build_skeleton(const Scene& scene,
                                       const SkeletonRequest& request = {});
 
