@@ -16,11 +16,6 @@
 
 namespace sightline::internal {
 
-/// Face ids, ascending, of all faces that meet the whole line through a and b, and some
-/// that do not; b may be rounded.
-[[nodiscard]] std::vector<int> faces_near_line(const Generators& generators,
-                                               const Point& a, const Point& b);
-
 /// All positions strictly inside the edge e0 e1 where the contacts of its lines through
 /// the star's point with these faces can change, in order, without repeats.  `plane` is
 /// that of the point and the edge; positions that no three points span go to `positions`,

@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "skeleton/edge_pair_internal.h"
+#include "skeleton/node_contacts_internal.h"
 #include "skeleton/occluder_shadow_internal.h"
 
 namespace sightline::internal {
@@ -166,7 +167,8 @@ EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
       form_stamp_(carriers.all.size(), 0),
       forms_(carriers.all.size()),
       point_stamp_(scene_.points().size(), 0),
-      beside_last_(scene_.points().size()) {}
+      beside_last_(scene_.points().size()),
+      node_stamps_(carriers.all.size(), 0) {}
 
 void EdgePairs::prepare(int i) {
   first_ = i;
@@ -466,6 +468,8 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
                        std::int32_t feature, const std::array<std::int32_t, 3>& plane,
                        bool times_f0) {
     Constraint c{values, {kind, false, feature, plane, 0, 1}, times_f0};
+    c.zero0 = values.sign0 == Sign::Zero;
+    c.zero1 = values.sign1 == Sign::Zero;
     if (!values.constant()) {
       // Zero at an end: inside it has the sign of the other.
       if (c.values.sign0 == Sign::Zero) c.values.sign0 = c.values.sign1;
@@ -748,16 +752,20 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
       break;
     }
   }
-  // One direction for a line, whichever way it was found; VEE begins with its vertex.
-  if (node.kind != NodeKind::VEE &&
-      node.generators[node.count - 1] < node.generators[0]) {
-    std::reverse(node.generators.begin(), node.generators.begin() + node.count);
-  }
   const double s = cut.parameter();
   const double t = curve.last_parameter(s);
   const auto& o = outer.points;
   node.segment = {o.at(o.p[0]) + s * (o.at(o.p[1]) - o.at(o.p[0])),
                   o.at(o.q[0]) + t * (o.at(o.q[1]) - o.at(o.q[0]))};
+  if (may_touch_more(outer, curve, middle, cut)) {
+    list_contacts(curve, cut, node);
+    if (!node.all.empty()) return node;
+  }
+  // One direction for a line, whichever way it was found; VEE begins with its vertex.
+  if (node.kind != NodeKind::VEE &&
+      node.generators[node.count - 1] < node.generators[0]) {
+    std::reverse(node.generators.begin(), node.generators.begin() + node.count);
+  }
   const auto objects = [&](const Generator& x) -> std::vector<std::int32_t> {
     if (x.kind == GeneratorKind::Vertex) {
       const auto at = g_.objects_at(x.id);
@@ -775,6 +783,62 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
     }
   }
   return node;
+}
+
+// Whether the line at a cut can have a contact that its kind does not name: two cuts
+// coincide, another edge's line is not certainly missed, or a corner is not that of a
+// convex solid that stands alone.
+bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
+                               const CurveCut& cut) {
+  const auto coincides = [&](const CurveCut& other) {
+    return other.hi >= cut.lo && other.lo <= cut.hi && !other.same_as(cut) &&
+           curve.compare(other, cut) == Sign::Zero;
+  };
+  for (const Constraint& c : constraints_) {
+    if (cut.kind == CurveCutKind::Start ? c.zero0
+        : cut.kind == CurveCutKind::End ? c.zero1
+                                        : !c.values.constant() && coincides(c.cut)) {
+      return true;
+    }
+  }
+  const std::int32_t corner =
+      cut.kind == CurveCutKind::Start ? outer.points.p[0]
+      : cut.kind == CurveCutKind::End ? outer.points.p[1]
+      : cut.kind == CurveCutKind::Far || cut.kind == CurveCutKind::Middle ? cut.feature
+                                                                          : -1;
+  if (corner >= 0) {
+    const Star& star = g_.stars()[g_.star_of_point(corner)];
+    if (!star.convex || star.touched || star.in_plane_only) return true;
+  }
+  const Ridge& r = g_.ridges()[middle];
+  ++node_stamp_;
+  for (const int face : faces_) {
+    if (skips(outer, r, face)) continue;
+    for (const auto& side : carriers_.of_face(face)) {
+      if (node_stamps_[side.carrier] == node_stamp_) continue;
+      node_stamps_[side.carrier] = node_stamp_;
+      if (cut.kind == CurveCutKind::Crossing && cut.feature == side.carrier) continue;
+      if (curve.misses(cut, form_of(outer, side.carrier))) continue;
+      return true;
+    }
+  }
+  return false;
+}
+
+void EdgePairs::list_contacts(const EeeCurve& curve, const CurveCut& cut,
+                              FoundNode& node) const {
+  const auto points = curve.points_at(cut);
+  if (!points) return;
+  const auto& [a, b] = *points;
+  const LineScan scan(scene_, faces_near_line(g_, rounded(a), rounded(b)), a, b);
+  const bool end = contacts_between(g_, scan).end;
+  const NodeContacts all = contacts_along(g_, scan, end);
+  if (all.kind == node.kind && !end) return;  // nothing new
+  node.kind = all.kind;
+  node.self = all.self;
+  node.end = end;
+  node.rising = false;
+  node.all = all.generators;
 }
 
 }  // namespace sightline::internal

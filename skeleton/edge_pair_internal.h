@@ -46,6 +46,8 @@ struct FoundNode {
   std::uint8_t count = 0;
   std::array<Generator, 4> generators{};
   std::array<Point, 2> segment;
+  /// Of a line with more contacts: all of them, in order; `generators` are not used.
+  std::vector<Generator> all;
 };
 
 struct FoundArc {
@@ -110,6 +112,9 @@ class EdgePairs {
                                                       const CurveInterval& stretch);
   [[nodiscard]] FoundNode node_at(const Outer& outer, const EeeCurve& curve, int middle,
                                   const CurveCut& cut);
+  [[nodiscard]] bool may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
+                                    const CurveCut& cut);
+  void list_contacts(const EeeCurve& curve, const CurveCut& cut, FoundNode& node) const;
   [[nodiscard]] bool skips(const Outer& outer, const Ridge& middle, int face) const;
 
   [[nodiscard]] PlaneValues values(const PlaneSide& plane, const Point& p0,
@@ -147,7 +152,8 @@ class EdgePairs {
   struct Constraint {
     BoundedLinear values;
     CurveCut cut;
-    bool times_f0 = false;  // its sign is that of the values times that of F0
+    bool times_f0 = false;              // its sign is that of the values times that of F0
+    bool zero0 = false, zero1 = false;  // at the ends
   };
   std::vector<Constraint> constraints_;
   struct Stretch {
@@ -156,6 +162,10 @@ class EdgePairs {
   };
   std::vector<Stretch> stretches_;
   std::vector<CurveInterval> closed_, parts_, next_;
+
+  // The node at hand.
+  std::uint32_t node_stamp_ = 0;
+  std::vector<std::uint32_t> node_stamps_;
 };
 
 }  // namespace sightline::internal

@@ -1,3 +1,5 @@
+#include <CGAL/Gmpq.h>
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -190,6 +192,50 @@ BoundedLinear EeeCurve::at_last_edge(const BoundedValue& a0, const BoundedValue&
   l.sign0 = sign_of(x);
   l.sign1 = sign_of(y);
   return l;
+}
+
+bool EeeCurve::misses(const CurveCut& cut, const BoundedForm& form) const {
+  const Bernstein h = quadratic(form_, form);
+  const Sign at_lo = certain_sign(h.blossom(cut.lo, cut.lo), h.error);
+  // Of one sign at both ends of so short an enclosure, and flat enough between.
+  const double between = h.blossom(cut.lo, cut.hi);
+  return at_lo != Sign::Zero && at_lo == certain_sign(between, h.error) &&
+         at_lo == certain_sign(h.blossom(cut.hi, cut.hi), h.error);
+}
+
+namespace {
+
+Rational rational(const Ring& x) {
+  const CGAL::Gmpq q(x);
+  Rational r;
+  mpq_set(r.backend().data(), q.mpq());
+  return r;
+}
+
+}  // namespace
+
+std::optional<std::array<ExactPoint, 2>> EeeCurve::points_at(const CurveCut& cut) const {
+  const Root root = exact(cut);
+  Rational s = rational(root.a);
+  if (!is_zero(root.b) && !is_zero(root.d)) {
+    const auto r = rational_root(root.d);
+    if (!r) return std::nullopt;
+    s += rational(root.b) * rational(*r);
+  }
+  s /= rational(root.c);
+  const auto point = [](const Point& a, const Point& b, const Rational& x) {
+    const ExactPoint p = exact_point(a);
+    const ExactPoint q = exact_point(b);
+    return ExactPoint{p[0] + x * (q[0] - p[0]), p[1] + x * (q[1] - p[1]),
+                      p[2] + x * (q[2] - p[2])};
+  };
+  const auto& f = exact_form().f;
+  const Rational f0 = rational(f[0][0]) * (1 - s) + rational(f[1][0]) * s;
+  const Rational f1 = rational(f[0][1]) * (1 - s) + rational(f[1][1]) * s;
+  if (f0 == f1) return std::nullopt;
+  const Rational t = f0 / (f0 - f1);
+  return std::array<ExactPoint, 2>{point(pair_.at(pair_.p[0]), pair_.at(pair_.p[1]), s),
+                                   point(pair_.at(pair_.q[0]), pair_.at(pair_.q[1]), t)};
 }
 
 double EeeCurve::last_parameter(double s) const {
@@ -419,7 +465,8 @@ Sign EeeCurve::order_at(const CurveCut& cut, int carrier, const BoundedForm& for
   }
   ++stage_counts.by_exact;
   const auto& f = exact_form().f;
-  const auto g = pair_.exact_form(g_line).f;
+  const Form<Ring> exact_g = pair_.exact_form(g_line);
+  const auto& g = exact_g.f;
   const auto exact_beside = [&](const std::array<std::int32_t, 2>& edge,
                                 const Carrier& line) {
     return ring_orient3d(pair_.at(edge[0]), pair_.at(edge[1]), pair_.at(line.points[0]),

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "linespace/predicates.h"
+#include "linespace/rational_internal.h"
 #include "linespace/scene.h"
 #include "linespace/transversals_internal.h"
 
@@ -133,6 +134,14 @@ class EeeCurve {
   /// the middle edge's contact lies further along than g's; Zero when they coincide.
   [[nodiscard]] Sign order_at(const CurveCut& cut, int carrier,
                               const BoundedForm& form) const;
+
+  /// Certain that the line at the cut does not meet the carrier's line.
+  [[nodiscard]] bool misses(const CurveCut& cut, const BoundedForm& form) const;
+
+  /// The points of the first and the last edge at the cut; nullopt where they are not
+  /// rational.
+  [[nodiscard]] std::optional<std::array<ExactPoint, 2>> points_at(
+      const CurveCut& cut) const;
 
   /// t at s, rounded.
   [[nodiscard]] double last_parameter(double s) const;

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <unordered_map>
@@ -45,6 +46,10 @@ class LineJoiner {
   explicit LineJoiner(Skeleton& skeleton) : out_(skeleton) {
     for (std::uint32_t i = 0; i < out_.nodes.size(); ++i) {
       const SkeletonNode& node = out_.nodes[i];
+      if (node.kind == NodeKind::Degenerate) {
+        const auto generators = out_.generators(node);
+        degenerate_.try_emplace({generators.begin(), generators.end()}, i);
+      }
       if (node.kind != NodeKind::VEE && node.kind != NodeKind::EVE) continue;
       known_.try_emplace(key_of(node.kind, false, out_.generators(node)), i);
     }
@@ -57,27 +62,43 @@ class LineJoiner {
 
  private:
   std::uint32_t add_node(const FoundNode& found) {
-    const std::span<const Generator> generators(found.generators.data(), found.count);
+    if (found.kind == NodeKind::Degenerate) return add_degenerate(found);
+    const std::span<const Generator> generators =
+        found.all.empty()
+            ? std::span<const Generator>(found.generators.data(), found.count)
+            : std::span<const Generator>(found.all);
     const auto [at, fresh] =
         known_.try_emplace(key_of(found.kind, found.rising, generators),
                            static_cast<std::uint32_t>(out_.nodes.size()));
-    if (!fresh) return at->second;
+    if (fresh) append(found, generators);
+    return at->second;
+  }
+
+  std::uint32_t add_degenerate(const FoundNode& found) {
+    const auto [at, fresh] =
+        degenerate_.try_emplace(found.all, static_cast<std::uint32_t>(out_.nodes.size()));
+    if (fresh) append(found, found.all);
+    out_.nodes[at->second].end |= found.end;
+    return at->second;
+  }
+
+  void append(const FoundNode& found, std::span<const Generator> generators) {
     SkeletonNode node;
     node.kind = found.kind;
     node.self = found.self;
     node.end = found.end;
     node.second = found.rising;
     node.first_generator = static_cast<std::uint32_t>(out_.generator_pool.size());
-    node.generator_count = found.count;
+    node.generator_count = static_cast<std::uint32_t>(generators.size());
     node.segment = found.segment;
     out_.generator_pool.insert(out_.generator_pool.end(), generators.begin(),
                                generators.end());
     out_.nodes.push_back(node);
-    return at->second;
   }
 
   Skeleton& out_;
   std::unordered_map<LineKey, std::uint32_t, LineHash> known_;
+  std::map<std::vector<Generator>, std::uint32_t> degenerate_;
 };
 
 std::vector<std::uint8_t> ridges_on(const Generators& g,

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "skeleton/degenerate_pair_internal.h"
+#include "skeleton/node_contacts_internal.h"
 
 namespace sightline {
 namespace {

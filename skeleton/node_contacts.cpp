@@ -1,0 +1,242 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "skeleton/node_contacts_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+// What a contact is made of: corners, edges that are not flat, faces the line lies in.
+std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
+                                     int contact) {
+  const Scene& scene = g.scene();
+  std::vector<Generator> found;
+  std::vector<int> facets;
+  const auto add_edge = [&](int edge) {
+    if (edge < 0) return;
+    const int ridge = g.ridge_of_edge(edge);
+    found.push_back({GeneratorKind::Edge, ridge < 0 ? edge : g.ridges()[ridge].edge});
+  };
+  const auto touches = scan.touches(contact);
+  for (const Touch& t : touches) {
+    const auto corners = scene.face_points(t.face);
+    if (t.kind == TouchKind::Corner) {
+      const int p = corners[t.index];
+      if (g.star_of_point(p) >= 0) {
+        found.push_back({GeneratorKind::Vertex, p});
+      } else {
+        const auto n = static_cast<int>(corners.size());
+        add_edge(scene.edge_of_side(t.face, t.index));
+        add_edge(scene.edge_of_side(t.face, (t.index + n - 1) % n));
+      }
+    } else if (t.kind == TouchKind::Edge) {
+      add_edge(scene.edge_of_side(t.face, t.index));
+    } else if (t.kind == TouchKind::EdgeOn) {
+      facets.push_back(scene.faces()[t.face].facet);
+    }
+  }
+  std::sort(facets.begin(), facets.end());
+  facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+  // A side through which the line leaves an edge-on face says nothing new.
+  std::erase_if(found, [&](const Generator& x) {
+    if (x.kind != GeneratorKind::Edge) return false;
+    const auto& sides = scene.edges()[x.id].sides;
+    return std::any_of(sides.begin(), sides.end(), [&](const Edge::Side& s) {
+      return std::binary_search(facets.begin(), facets.end(),
+                                scene.faces()[s.face].facet);
+    });
+  });
+  for (const int f : facets) found.push_back({GeneratorKind::Face, f});
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+// Whether the contact blocks the closed segment [0, 1] of the line.  What the contact
+// meets beyond the segment's ends does not count, what it meets at them does: the part
+// judged ends between there and the next instant outside.
+bool blocks_segment(const LineScan& scan, int contact) {
+  if (scan.from(contact) >= 0 && scan.to(contact) <= 1) return scan.blocked(contact);
+  Rational low = -1;
+  Rational high = 2;
+  for (const Rational& t : scan.instants(contact)) {
+    if (t < 0 && t > low) low = t;
+    if (t > 1 && t < high) high = t;
+  }
+  return scan.blocked_between(contact, low / 2, (high + 1) / 2);
+}
+
+bool meets_segment(const LineScan& scan, int contact) {
+  return scan.to(contact) >= 0 && scan.from(contact) <= 1;
+}
+
+// The kind that exactly these contacts make, in the order of the line or reversed.
+std::optional<NodeKind> kind_of(std::vector<std::vector<Generator>> groups) {
+  std::erase_if(groups, [](const auto& x) { return x.empty(); });
+  const auto is = [](const std::vector<Generator>& group,
+                     std::initializer_list<GeneratorKind> kinds) {
+    return std::equal(group.begin(), group.end(), kinds.begin(), kinds.end(),
+                      [](const Generator& x, GeneratorKind k) { return x.kind == k; });
+  };
+  constexpr auto v = GeneratorKind::Vertex;
+  constexpr auto e = GeneratorKind::Edge;
+  constexpr auto f = GeneratorKind::Face;
+  for (int turn = 0; turn < 2; ++turn) {
+    const auto n = groups.size();
+    if (n == 2 && is(groups[0], {v}) && is(groups[1], {v})) return NodeKind::VV;
+    if (n == 2 && is(groups[0], {v, f}) && is(groups[1], {e})) return NodeKind::FvE;
+    if (n == 3 && is(groups[0], {v}) && is(groups[1], {e}) && is(groups[2], {e})) {
+      return NodeKind::VEE;
+    }
+    if (n == 3 && is(groups[0], {e}) && is(groups[1], {v}) && is(groups[2], {e})) {
+      return NodeKind::EVE;
+    }
+    if (n == 4 && is(groups[0], {e}) && is(groups[1], {e}) && is(groups[2], {e}) &&
+        is(groups[3], {e})) {
+      return NodeKind::EEEE;
+    }
+    if (n == 3 && is(groups[0], {f}) && is(groups[1], {e}) && is(groups[2], {e})) {
+      return NodeKind::FEE;
+    }
+    if (n == 3 && is(groups[0], {e}) && is(groups[1], {f}) && is(groups[2], {e})) {
+      return NodeKind::FEE;
+    }
+    std::reverse(groups.begin(), groups.end());
+  }
+  return std::nullopt;
+}
+
+std::vector<std::int32_t> objects_of(const Generators& g, const Generator& x) {
+  const Scene& scene = g.scene();
+  if (x.kind == GeneratorKind::Vertex) {
+    const auto o = g.objects_at(x.id);
+    return {o.begin(), o.end()};
+  }
+  if (x.kind == GeneratorKind::Edge) {
+    const int ridge = g.ridge_of_edge(x.id);
+    if (ridge >= 0) return g.ridges()[ridge].objects;
+    return {scene.edges()[x.id].object};
+  }
+  return {scene.facets()[x.id].object};
+}
+
+// Two contacts on one and the same object.
+bool two_on_one_object(const Generators& g,
+                       const std::vector<std::vector<Generator>>& groups) {
+  std::vector<std::int32_t> single;
+  for (const auto& group : groups) {
+    if (group.empty()) continue;
+    const auto o = objects_of(g, group.front());
+    if (o.size() != 1) continue;
+    if (std::find(single.begin(), single.end(), o[0]) != single.end()) return true;
+    single.push_back(o[0]);
+  }
+  return false;
+}
+
+NodeContacts node_of(const Generators& g,
+                     const std::vector<std::vector<Generator>>& groups) {
+  NodeContacts node;
+  node.kind = kind_of(groups).value_or(NodeKind::Degenerate);
+  node.self = two_on_one_object(g, groups);
+  for (const auto& group : groups) {
+    node.generators.insert(node.generators.end(), group.begin(), group.end());
+  }
+  return node;
+}
+
+}  // namespace
+
+ExactPoint along(const ExactPoint& a, const ExactPoint& b, const Rational& s) {
+  return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
+}
+
+Point rounded(const ExactPoint& p) {
+  return {p[0].convert_to<double>(), p[1].convert_to<double>(),
+          p[2].convert_to<double>()};
+}
+
+std::vector<int> faces_near_line(const Generators& g, const Point& a, const Point& b) {
+  std::vector<int> found;
+  const auto& bounds = g.scene().bounds();
+  double size = 0;
+  for (int i = 0; i < 3; ++i) {
+    size = std::max({size, std::abs(bounds[0][i]), std::abs(bounds[1][i])});
+  }
+  const Point d = b - a;
+  const double grow =
+      1024 * std::numeric_limits<double>::epsilon() * size * (1 + size / d.norm());
+  // Each bound is rounded twice, relatively: generous, since a false hit costs little.
+  constexpr double slack = 1024 * std::numeric_limits<double>::epsilon();
+  g.face_tree().traverse(
+      [&](const Box& box) {
+        double t0 = -std::numeric_limits<double>::infinity();
+        double t1 = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < 3; ++i) {
+          const double low = box.min[i] - grow - a[i];
+          const double high = box.max[i] + grow - a[i];
+          if (std::abs(d[i]) * size <= grow * d.norm()) {
+            if (std::abs(d[i]) == 0 && (low > 0 || high < 0)) return false;
+            continue;  // nearly parallel to the slab: no decision
+          }
+          const double p = low / d[i];
+          const double q = high / d[i];
+          t0 = std::max(t0, std::min(p, q));
+          t1 = std::min(t1, std::max(p, q));
+        }
+        return t0 <= t1 + slack * (std::abs(t0) + std::abs(t1));
+      },
+      [&](std::uint32_t f) { found.push_back(static_cast<int>(f)); });
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+bool is_free(const LineScan& scan) {
+  for (int i = 0; i < scan.size(); ++i) {
+    if (meets_segment(scan, i) && blocks_segment(scan, i)) return false;
+  }
+  return true;
+}
+
+NodeContacts contacts_between(const Generators& g, const LineScan& scan) {
+  std::vector<std::vector<Generator>> groups;
+  bool free = true;
+  for (int i = 0; i < scan.size(); ++i) {
+    if (!meets_segment(scan, i)) continue;
+    free = free && !blocks_segment(scan, i);
+    groups.push_back(generators_of(g, scan, i));
+  }
+  NodeContacts node = node_of(g, groups);
+  node.end = !free;
+  return node;
+}
+
+NodeContacts contacts_along(const Generators& g, const LineScan& scan, bool end) {
+  int first = -1;
+  int last = -1;
+  for (int c = 0; c < scan.size(); ++c) {
+    if (scan.from(c) <= 0 && scan.to(c) >= 0) first = c;
+    if (scan.from(c) <= 1 && scan.to(c) >= 1) last = c;
+  }
+  if (first < 0 || last < 0) return {};
+  if (!end || !blocks_segment(scan, first)) {
+    while (first > 0 && !scan.blocked(first - 1)) --first;
+  }
+  if (!end || !blocks_segment(scan, last)) {
+    while (last + 1 < scan.size() && !scan.blocked(last + 1)) ++last;
+  }
+  std::vector<std::vector<Generator>> groups;
+  for (int c = first; c <= last; ++c) groups.push_back(generators_of(g, scan, c));
+  NodeContacts node = node_of(g, groups);
+  std::vector<Generator> reversed;
+  for (auto group = groups.rbegin(); group != groups.rend(); ++group) {
+    reversed.insert(reversed.end(), group->begin(), group->end());
+  }
+  if (reversed < node.generators) node.generators = reversed;
+  node.end = end;
+  return node;
+}
+
+}  // namespace sightline::internal

@@ -1,0 +1,45 @@
+// The contacts of one exact line as a node sees them: which generators it touches, in
+// order, and the kind that these make.
+
+#pragma once
+
+#include <vector>
+
+#include "linespace/contact_internal.h"
+#include "skeleton/generators_internal.h"
+#include "skeleton/skeleton.h"
+
+namespace sightline::internal {
+
+/// a + s (b - a).
+[[nodiscard]] ExactPoint along(const ExactPoint& a, const ExactPoint& b,
+                               const Rational& s);
+[[nodiscard]] Point rounded(const ExactPoint& p);
+
+/// Face ids, ascending, of all faces that meet the whole line through a and b, and some
+/// that do not; b may be rounded.
+[[nodiscard]] std::vector<int> faces_near_line(const Generators& generators,
+                                               const Point& a, const Point& b);
+
+/// No contact blocks the closed segment [0, 1] of the line.
+[[nodiscard]] bool is_free(const LineScan& scan);
+
+/// A node as its contacts make it.
+struct NodeContacts {
+  NodeKind kind = NodeKind::Degenerate;
+  bool self = false;
+  bool end = false;                   ///< some contact blocks the segment
+  std::vector<Generator> generators;  ///< in order along the line
+};
+
+/// Of the contacts that meet the closed segment [0, 1] of the line.
+[[nodiscard]] NodeContacts contacts_between(const Generators& generators,
+                                            const LineScan& scan);
+
+/// Of those along the whole maximal free segment around [0, 1]; listed from the end with
+/// the smaller generators.  `end` says that the line may end at 0 or 1, and goes on from
+/// there only where it does not.
+[[nodiscard]] NodeContacts contacts_along(const Generators& generators,
+                                          const LineScan& scan, bool end);
+
+}  // namespace sightline::internal
