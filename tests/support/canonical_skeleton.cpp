@@ -20,9 +20,12 @@ void print(std::ostream& out, const NodeKey& key) {
   out << " ]";
 }
 
+std::string name(const ArcKey& key) { return key.kind + (key.self ? "_self" : ""); }
+
 void print(std::ostream& out, const ArcKey& key) {
-  print(out << (key.self ? "EV_self " : "EV "), key.vertex);
-  print(out << ' ', key.edge);
+  out << name(key) << '[';
+  for (const GeneratorKey& g : key.generators) print(out << ' ', g);
+  out << " ]";
   print(out << "\n      from ", key.nodes[0]);
   print(out << "\n      to ", key.nodes[1]);
 }
@@ -40,6 +43,12 @@ void print_missing(std::ostream& out, const std::vector<Key>& has,
   }
 }
 
+/// Into the direction that comes first lexicographically.
+void turn(std::vector<GeneratorKey>& along_line) {
+  std::vector<GeneratorKey> reversed(along_line.rbegin(), along_line.rend());
+  if (reversed < along_line) along_line = std::move(reversed);
+}
+
 }  // namespace
 
 void CanonicalSkeleton::sort() {
@@ -50,18 +59,27 @@ void CanonicalSkeleton::sort() {
 std::map<std::string, int> CanonicalSkeleton::counts() const {
   std::map<std::string, int> result;
   for (const NodeKey& node : nodes) ++result[node.kind];
-  for (const ArcKey& arc : arcs) ++result[arc.self ? "EV_self" : "EV"];
+  for (const ArcKey& arc : arcs) ++result[name(arc)];
   return result;
 }
 
 NodeKey node_key(std::string kind, std::vector<GeneratorKey> along_line) {
-  if (kind.starts_with("VV") || kind.starts_with("VEE") || kind.starts_with("EVE")) {
-    std::vector<GeneratorKey> reversed(along_line.rbegin(), along_line.rend());
-    if (reversed < along_line) along_line = std::move(reversed);
+  const bool ordered =
+      std::ranges::any_of(std::array{"VV", "VEE", "EVE", "EEEE", "FEE"},
+                          [&](const char* prefix) { return kind.starts_with(prefix); });
+  if (ordered) {
+    turn(along_line);
   } else {
     std::ranges::sort(along_line);
   }
   return {std::move(kind), std::move(along_line)};
+}
+
+ArcKey arc_key(std::string kind, std::vector<GeneratorKey> along_line, bool self,
+               std::array<NodeKey, 2> nodes) {
+  turn(along_line);
+  if (kind == "EEE") std::ranges::sort(nodes);
+  return {std::move(kind), std::move(along_line), self, std::move(nodes)};
 }
 
 std::string difference(const CanonicalSkeleton& a, const std::string& a_name,

@@ -1,5 +1,5 @@
-// An EV skeleton told in coordinates only, so that skeletons of reordered, moved or
-// independently computed scenes can be compared for equality.
+// A visibility skeleton told in coordinates only, so that skeletons of reordered, moved
+// or independently computed scenes can be compared for equality.
 
 #pragma once
 
@@ -21,17 +21,21 @@ struct GeneratorKey {
 };
 
 /// A node: its name with "_self" or "_end" where that applies, and its generators.  Of
-/// VV, VEE and EVE in order along the line, in the direction that comes first
-/// lexicographically; of the others sorted.
+/// VV, VEE, EVE, EEEE and FEE in order along the line, in the direction that comes first
+/// lexicographically; of the others sorted.  The two lines through four edges may have
+/// equal keys.
 struct NodeKey {
   std::string kind;
   std::vector<GeneratorKey> generators;
   friend auto operator<=>(const NodeKey&, const NodeKey&) = default;
 };
 
-/// An arc: nodes[0] is the one towards the edge's smaller end point.
+/// An arc: its generators in order along its lines, in the direction that comes first
+/// lexicographically.  Of EV, nodes[0] is the one towards the edge's smaller end point;
+/// of EEE, the smaller one.
 struct ArcKey {
-  GeneratorKey vertex, edge;
+  std::string kind;  ///< "EV" or "EEE"
+  std::vector<GeneratorKey> generators;
   bool self = false;
   std::array<NodeKey, 2> nodes;
   friend auto operator<=>(const ArcKey&, const ArcKey&) = default;
@@ -44,12 +48,17 @@ struct CanonicalSkeleton {
   friend bool operator==(const CanonicalSkeleton&, const CanonicalSkeleton&) = default;
 
   void sort();
-  /// Number of nodes of each kind, and of arcs under "EV" and "EV_self".
+  /// Number of nodes and of arcs of each kind, of arcs with "_self" where that applies.
   [[nodiscard]] std::map<std::string, int> counts() const;
 };
 
 /// Puts the generators of a node in the order that NodeKey asks for.
 [[nodiscard]] NodeKey node_key(std::string kind, std::vector<GeneratorKey> along_line);
+
+/// Puts generators and nodes of an arc in the order that ArcKey asks for.  Of EV, the
+/// nodes are given from the edge's smaller end point to the other.
+[[nodiscard]] ArcKey arc_key(std::string kind, std::vector<GeneratorKey> along_line,
+                             bool self, std::array<NodeKey, 2> nodes);
 
 /// What one has and the other has not, in words, at most `limit` items of each; empty
 /// when they are equal.

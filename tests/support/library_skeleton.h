@@ -77,10 +77,10 @@ inline CanonicalSkeleton canonical(const Scene& scene, const Skeleton& skeleton,
   }
   CanonicalSkeleton result;
   for (const SkeletonArc& arc : skeleton.arcs) {
-    ArcKey key{generator_key({GeneratorKind::Vertex, arc.vertex}),
-               generator_key({GeneratorKind::Edge, arc.edge}),
-               arc.self,
-               {by_id[arc.nodes[0]], by_id[arc.nodes[1]]}};
+    ArcKey key = arc_key("EV",
+                         {generator_key({GeneratorKind::Vertex, arc.vertex}),
+                          generator_key({GeneratorKind::Edge, arc.edge})},
+                         arc.self, {by_id[arc.nodes[0]], by_id[arc.nodes[1]]});
     const auto& ends = scene.edges()[arc.edge].points;
     if (coordinates(ends[1]) < coordinates(ends[0]))
       std::swap(key.nodes[0], key.nodes[1]);

@@ -1,187 +1,15 @@
 #include "tests/support/naive_ev.h"
 
-#include <CGAL/Exact_rational.h>
-#include <CGAL/Lazy_exact_nt.h>
-
 #include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "tests/support/naive_solids_internal.h"
+
 namespace sightline::testing {
 namespace {
-
-/// Rationals that look at an interval first; every sign is exact.
-using Number = CGAL::Lazy_exact_nt<CGAL::Exact_rational>;
-
-struct Vector {
-  Number x, y, z;
-};
-
-Vector operator+(const Vector& a, const Vector& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Vector operator-(const Vector& a, const Vector& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Vector operator*(const Number& s, const Vector& a) { return {s * a.x, s * a.y, s * a.z}; }
-Number dot(const Vector& a, const Vector& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-Vector cross(const Vector& a, const Vector& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-int sign_of(const Number& x) { return static_cast<int>(CGAL::sign(x)); }
-
-/// { x : normal . x = offset }; a solid lies where normal . x <= offset.
-struct Plane {
-  Vector normal;
-  Number offset;
-  [[nodiscard]] Number operator()(const Vector& p) const {
-    return dot(normal, p) - offset;
-  }
-};
-
-Plane plane_through(const Vector& a, const Vector& b, const Vector& c) {
-  const Vector normal = cross(b - a, c - a);
-  return {normal, dot(normal, a)};
-}
-
-struct SolidFace {
-  std::vector<int> vertices;  // counter-clockwise seen from outside
-  Plane plane;
-  int solid;
-};
-
-struct SolidEdge {
-  int a, b;
-  int left, right;  // its two faces
-  int solid;
-};
-
-/// The polyhedra, with all indices global.
-struct Solids {
-  std::vector<Coordinates> coordinates;
-  std::vector<Vector> vertices;
-  std::vector<int> solid_of_vertex;
-  std::vector<std::vector<int>> faces_of_vertex;
-  std::vector<SolidFace> faces;
-  std::vector<SolidEdge> edges;
-  std::vector<std::vector<int>> faces_of_solid;
-
-  explicit Solids(const PolygonSoup& soup);
-
-  [[nodiscard]] GeneratorKey vertex_key(int v) const { return {'V', {coordinates[v]}}; }
-  [[nodiscard]] GeneratorKey edge_key(int e) const {
-    GeneratorKey key{'E', {coordinates[edges[e].a], coordinates[edges[e].b]}};
-    std::ranges::sort(key.points);
-    return key;
-  }
-  [[nodiscard]] GeneratorKey face_key(int f) const {
-    GeneratorKey key{'F', {}};
-    for (const int v : faces[f].vertices) key.points.push_back(coordinates[v]);
-    std::ranges::sort(key.points);
-    return key;
-  }
-
-  /// The line through v in that direction does not enter v's solid near v: neither
-  /// direction points into the interior of the cone that the faces at v bound.
-  [[nodiscard]] bool supports_at_vertex(int v, const Vector& direction) const {
-    return does_not_enter(faces_of_vertex[v], direction);
-  }
-  /// The same for a line through a point inside edge e.
-  [[nodiscard]] bool supports_at_edge(int e, const Vector& direction) const {
-    return does_not_enter({edges[e].left, edges[e].right}, direction);
-  }
-  /// No solid's interior meets the open segment ab.
-  [[nodiscard]] bool is_free(const Vector& a, const Vector& b) const;
-
- private:
-  [[nodiscard]] bool does_not_enter(const std::vector<int>& around,
-                                    const Vector& direction) const {
-    bool all_in = true, all_out = true;
-    for (const int f : around) {
-      const int s = sign_of(dot(faces[f].plane.normal, direction));
-      all_in = all_in && s < 0;
-      all_out = all_out && s > 0;
-    }
-    return !all_in && !all_out;
-  }
-};
-
-Solids::Solids(const PolygonSoup& soup) {
-  for (std::size_t s = 0; s < soup.groups.size(); ++s) {
-    const int solid = static_cast<int>(s);
-    std::map<Coordinates, int> ids;
-    std::map<std::pair<int, int>, int> sides;  // directed side -> face
-    faces_of_solid.emplace_back();
-    for (const int f : soup.groups[s].faces) {
-      SolidFace face;
-      face.solid = solid;
-      const int face_id = static_cast<int>(faces.size());
-      for (const int v : soup.polygons[f]) {
-        const Point& p = soup.vertices[v];
-        const Coordinates key = {p[0] + 0.0, p[1] + 0.0, p[2] + 0.0};
-        const auto [it, is_new] = ids.try_emplace(key, static_cast<int>(vertices.size()));
-        if (is_new) {
-          coordinates.push_back(key);
-          vertices.push_back({Number(key[0]), Number(key[1]), Number(key[2])});
-          solid_of_vertex.push_back(solid);
-          faces_of_vertex.emplace_back();
-        }
-        face.vertices.push_back(it->second);
-        faces_of_vertex[it->second].push_back(face_id);
-      }
-      for (std::size_t i = 0; i < face.vertices.size(); ++i) {
-        sides[{face.vertices[i], face.vertices[(i + 1) % face.vertices.size()]}] =
-            face_id;
-      }
-      face.plane = plane_through(vertices[face.vertices[0]], vertices[face.vertices[1]],
-                                 vertices[face.vertices[2]]);
-      faces_of_solid.back().push_back(face_id);
-      faces.push_back(std::move(face));
-    }
-    for (const auto& [side, left] : sides) {
-      if (side.first > side.second) continue;
-      const auto twin = sides.find({side.second, side.first});
-      if (twin == sides.end()) throw NotGeneral("a group is not closed");
-      edges.push_back({side.first, side.second, left, twin->second, solid});
-    }
-    for (const int f : faces_of_solid.back()) {
-      for (const auto& [key, v] : ids) {
-        const bool on_face = std::ranges::count(faces[f].vertices, v) > 0;
-        const int side = sign_of(faces[f].plane(vertices[v]));
-        if (side > 0) throw NotGeneral("a group is not convex and outward");
-        if (on_face && side != 0) throw NotGeneral("a face is not planar");
-        if (!on_face && side == 0) throw NotGeneral("a group has coplanar faces");
-      }
-    }
-  }
-}
-
-bool Solids::is_free(const Vector& a, const Vector& b) const {
-  for (const std::vector<int>& solid : faces_of_solid) {
-    // The open interval of parameters at which the segment is inside the solid.
-    Number from = 0, to = 1;
-    bool misses = false;
-    for (const int f : solid) {
-      const Number at_a = faces[f].plane(a);
-      const Number at_b = faces[f].plane(b);
-      const int sign_a = sign_of(at_a), sign_b = sign_of(at_b);
-      if (sign_a >= 0 && sign_b >= 0) {
-        misses = true;
-        break;
-      }
-      if (sign_a > 0) {
-        from = std::max(from, Number(at_a / (at_a - at_b)));
-      } else if (sign_b > 0) {
-        to = std::min(to, Number(at_a / (at_a - at_b)));
-      }
-    }
-    if (!misses && from < to) return false;
-  }
-  return true;
-}
 
 /// A node as found from its definition, with what is needed to recognise it as an arc's
 /// end: its vertex, its last edge, and where on that edge it is.
@@ -402,10 +230,8 @@ void Enumeration::find_arcs(int v, int e) {
     was_inside = inside;
   }
   for (const auto& [first, last] : runs) {
-    ArcKey arc{s_.vertex_key(v),
-               s_.edge_key(e),
-               false,
-               {end_node(v, e, bounds[first]), end_node(v, e, bounds[last])}};
+    ArcKey arc = arc_key("EV", {s_.vertex_key(v), s_.edge_key(e)}, false,
+                         {end_node(v, e, bounds[first]), end_node(v, e, bounds[last])});
     if (s_.coordinates[edge.b] < s_.coordinates[edge.a]) {
       std::swap(arc.nodes[0], arc.nodes[1]);
     }
