@@ -496,7 +496,8 @@ void Enumeration::find_arcs(const SupportingLines& lines) {
   for (std::size_t i = 0; i + 1 < critical.size(); ++i) {
     const Number t = between(critical[i].t, critical[i + 1].t);
     const std::optional<Contacts<Number>> line = free_line(edges, t);
-    if (i > 0 && (line || !order.empty()) && !free_line(edges, critical[i].t)) {
+    // Being in is closed; at a run's ends, the node there was found to be in.
+    if (line && !order.empty() && !free_line(edges, critical[i].t)) {
       throw std::logic_error("a component is not closed");
     }
     if (!order.empty() && !line) {
