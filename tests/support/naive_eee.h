@@ -21,6 +21,8 @@ namespace sightline::testing {
 /// Throws NotGeneral (naive_ev.h) where naive_ev() does, and when a line that supports
 /// all its contacts has one more than its kind of node, touches a solid in the plane of a
 /// face without being an FEE of it, or is the double root of its four edges.
+/// Cost: for n edges, about n^3 sign tests, and n of them for each of the few thousand
+/// triples that some line supports; 8 solids with n = 144 take a few seconds.
 [[nodiscard]] CanonicalSkeleton naive_eee(const PolygonSoup& soup);
 
 }  // namespace sightline::testing
