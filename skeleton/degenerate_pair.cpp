@@ -260,7 +260,8 @@ void find_further_contacts(const Generators& g, const Star& star, VertexView& vi
                                : along(x0, x1, exact_parameter(scene, line, cut));
       const LineScan scan(scene, faces_near_line(g, v, rounded(x)), from, x);
       const NodeContacts all = contacts_along(g, scan, node.end);
-      if (all.generators.empty() || all.kind == node.kind) continue;
+      if (all.generators.empty()) continue;
+      if (all.kind == node.kind && all.kind != NodeKind::Degenerate) continue;
       node.kind = all.kind;
       node.self = all.self;
       node.first_generator = static_cast<std::uint32_t>(view.pool.size());

@@ -145,6 +145,14 @@ Carriers::Carriers(const Generators& g) {
     }
     starts.push_back(static_cast<std::int32_t>(sides.size()));
   }
+  touched_facets.assign(scene.facets().size(), 0);
+  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    for (const Side& side : of_face(static_cast<int>(f))) {
+      if (all[side.carrier].edge < 0) continue;
+      const int r = ridge[side.carrier];
+      if (r < 0 || g.ridges()[r].touched) touched_facets[scene.faces()[f].facet] = 1;
+    }
+  }
   for (const Object& object : scene.objects()) {
     std::vector<Point> points;
     for (const int f : object.faces) {
@@ -306,7 +314,7 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   // A line grazes an edge iff the other point is not on the same side of both planes.
   const auto never_grazes = [](const std::array<PlaneValues, 2>& v) {
     return v[0].sign0 == v[0].sign1 && v[1].sign0 == v[1].sign1 &&
-           v[0].sign0 == v[1].sign0;
+           v[0].sign0 == v[1].sign0 && v[0].sign0 != Sign::Zero;
   };
   if (never_grazes(outer.first_planes) || never_grazes(outer.last_planes)) return;
   if (hidden_edge(s)) return;
@@ -432,7 +440,8 @@ void EdgePairs::visit_curve(const Outer& outer, int middle, std::vector<FoundArc
   const BoundedLinear& w1 = beside_last(outer, r.points[1]);
   if (w0.constant() && w1.constant() && w0.sign0 == w1.sign0) return;
   const EeeCurve curve(outer.points, carriers_.all, carrier, form_of(outer, carrier));
-  bool degenerate = false;
+  bool degenerate =
+      r.touched || g_.ridges()[outer.first].touched || g_.ridges()[outer.last].touched;
   find_stretches(outer, r, curve, degenerate);
   for (std::size_t i = 0; i < stretches_.size(); ++i) {
     const Stretch stretch = stretches_[i];
@@ -440,19 +449,117 @@ void EdgePairs::visit_curve(const Outer& outer, int middle, std::vector<FoundArc
     find_blocked(outer, r, curve, stretch.part, stretch.f0, covered, degenerate);
     if (covered) continue;
     for (const CurveInterval& open : open_parts(curve, stretch.part)) {
-      FoundArc found;
-      found.arc.edges = {g_.ridges()[outer.first].edge, r.edge,
-                         g_.ridges()[outer.last].edge};
-      found.arc.range = {open.from.parameter(), open.to.parameter()};
-      found.arc.self =
-          share(g_.ridges()[outer.first].objects, r.objects) ||
-          share(r.objects, g_.ridges()[outer.last].objects) ||
-          share(g_.ridges()[outer.first].objects, g_.ridges()[outer.last].objects);
-      found.ends = {node_at(outer, curve, middle, open.from),
-                    node_at(outer, curve, middle, open.to)};
-      out.push_back(std::move(found));
+      if (!degenerate) {
+        add_arc(outer, curve, middle, open, out);
+        continue;
+      }
+      for (const CurveInterval& free : free_parts(outer, curve, open)) {
+        add_arc(outer, curve, middle, free, out);
+      }
     }
   }
+}
+
+void EdgePairs::add_arc(const Outer& outer, const EeeCurve& curve, int middle,
+                        const CurveInterval& part, std::vector<FoundArc>& out) {
+  const Ridge& first = g_.ridges()[outer.first];
+  const Ridge& between = g_.ridges()[middle];
+  const Ridge& last = g_.ridges()[outer.last];
+  FoundArc found;
+  found.arc.edges = {first.edge, between.edge, last.edge};
+  found.arc.range = {part.from.parameter(), part.to.parameter()};
+  found.arc.self = share(first.objects, between.objects) ||
+                   share(between.objects, last.objects) ||
+                   share(first.objects, last.objects);
+  found.ends = {node_at(outer, curve, middle, part.from),
+                node_at(outer, curve, middle, part.to)};
+  out.push_back(std::move(found));
+}
+
+// The general way, for lines in the planes of faces or along touched edges: between any
+// two critical positions the contacts of one line decide.
+std::vector<CurveInterval> EdgePairs::free_parts(const Outer& outer,
+                                                 const EeeCurve& curve,
+                                                 const CurveInterval& open) {
+  std::vector<CurveCut> stops;
+  const auto add = [&](const CurveCut& cut) {
+    if (curve.compare(open.from, cut) == Sign::Negative &&
+        curve.compare(cut, open.to) == Sign::Negative) {
+      stops.push_back(cut);
+    }
+  };
+  const auto& o = outer.points;
+  const int own[] = {carriers_.of_ridge[outer.first], curve.middle(),
+                     carriers_.of_ridge[outer.last]};
+  ++node_stamp_;
+  for (const int face : faces_) {
+    const PlaneSide& plane = g_.face_plane(face);
+    const std::array<std::int32_t, 3> points = plane_points(scene_, face);
+    const int facet = scene_.faces()[face].facet;
+    const PlaneValues p = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+    if (p.sign0 == -p.sign1 && p.sign0 != Sign::Zero) {
+      CurveCut cut{CurveCutKind::OnPlane, false, facet, points, 0, 1};
+      enclose_root({p.at0.value, p.at1.value, p.at0.error, p.at1.error, {}, {}}, cut);
+      add(cut);
+    }
+    const PlaneValues q = values(plane, o.at(o.q[0]), o.at(o.q[1]));
+    if (q.sign0 == -q.sign1 && q.sign0 != Sign::Zero) {
+      const BoundedLinear l = curve.at_last_edge(q.at0, q.at1, points);
+      if (l.sign0 == -l.sign1 && l.sign0 != Sign::Zero) {
+        CurveCut cut{CurveCutKind::OnFar, false, facet, points, 0, 1};
+        enclose_root(l, cut);
+        add(cut);
+      }
+    }
+    for (const auto& side : carriers_.of_face(face)) {
+      if (node_stamps_[side.carrier] == node_stamp_) continue;
+      node_stamps_[side.carrier] = node_stamp_;
+      if (std::find(std::begin(own), std::end(own), side.carrier) != std::end(own)) {
+        continue;
+      }
+      next_.clear();
+      bool zero = false;
+      curve.where(side.carrier, form_of(outer, side.carrier), Sign::Positive, open, next_,
+                  zero);
+      for (const CurveInterval& part : next_) {
+        add(part.from);
+        add(part.to);
+      }
+    }
+  }
+  std::sort(stops.begin(), stops.end(), [&](const CurveCut& a, const CurveCut& b) {
+    return curve.compare(a, b) == Sign::Negative;
+  });
+  stops.erase(std::unique(stops.begin(), stops.end(),
+                          [&](const CurveCut& a, const CurveCut& b) {
+                            return curve.compare(a, b) == Sign::Zero;
+                          }),
+              stops.end());
+  stops.insert(stops.begin(), open.from);
+  stops.push_back(open.to);
+
+  std::vector<int> faces(faces_.begin(), faces_.end());
+  std::sort(faces.begin(), faces.end());
+  const auto free_line = [&](const std::optional<std::array<ExactPoint, 2>>& line) {
+    return line && is_free(LineScan(scene_, faces, (*line)[0], (*line)[1]));
+  };
+  std::vector<CurveInterval> free;
+  std::optional<CurveCut> begin;
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const auto s = curve.between(stops[i], stops[i + 1]);
+    const bool open_here = s && free_line(curve.points_at(*s));
+    if (begin && i > 0) {
+      // The arc goes on through a critical line that is free itself.
+      const auto line = curve.points_at(stops[i]);
+      if (!open_here || (line && !free_line(line))) {
+        free.push_back({*begin, stops[i]});
+        begin.reset();
+      }
+    }
+    if (open_here && !begin) begin = stops[i];
+  }
+  if (begin) free.push_back({*begin, stops.back()});
+  return free;
 }
 
 // The parts of the curve inside the square and of the middle edge, between the outer
@@ -464,6 +571,7 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
   const auto& o = outer.points;
   const BoundedForm& f = curve.form();
   const Carrier& carrier = carriers_.all[curve.middle()];
+  bool vanishes = false;  // the last one added, all along
   const auto add = [&](const BoundedLinear& values, CurveCutKind kind,
                        std::int32_t feature, const std::array<std::int32_t, 3>& plane,
                        bool times_f0) {
@@ -476,7 +584,8 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
       if (c.values.sign1 == Sign::Zero) c.values.sign1 = c.values.sign0;
     }
     if (!c.values.constant()) enclose_root(values, c.cut);
-    if (c.values.sign0 == Sign::Zero) degenerate = true;
+    vanishes = c.values.sign0 == Sign::Zero;
+    degenerate |= vanishes;
     constraints_.push_back(c);
   };
   const auto linear = [](const PlaneValues& v) {
@@ -496,17 +605,22 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
       }
     }
     add(l, CurveCutKind::Far, o.q[b], {}, false);
+    if (vanishes) return;  // all lines through one end: no three edges
   }
+  // A zero all along decides nothing: those lines lie in the plane of a face.
   const auto same_everywhere = [](const Constraint& x, const Constraint& y) {
-    return x.values.constant() && y.values.constant() && x.values.sign0 == y.values.sign0;
+    return x.values.constant() && y.values.constant() &&
+           x.values.sign0 == y.values.sign0 && x.values.sign0 != Sign::Zero;
   };
-  if (degenerate || same_everywhere(constraints_[0], constraints_[1])) return;
+  const auto differ = [](Sign x, Sign y) { return x != y || x == Sign::Zero; };
+  if (same_everywhere(constraints_[0], constraints_[1])) return;
   // 2, 3: the middle edge's ends, on opposite sides of the plane of P(s) and the last
   // edge.
   for (const std::int32_t w : middle.points) {
     add(beside_last(outer, w), CurveCutKind::Middle, w, {}, false);
+    if (vanishes) return;
   }
-  if (degenerate || same_everywhere(constraints_[2], constraints_[3])) return;
+  if (same_everywhere(constraints_[2], constraints_[3])) return;
   // 4, 5: planes at the middle edge; 6, 7: at the last, at P(s).
   const std::array<std::int32_t, 3> middle_planes[2] = {
       {middle.points[1], middle.points[0], middle.thirds[0]},
@@ -515,13 +629,13 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
       middle.facets[0], middle_planes[0], false);
   add(linear(values(middle.b, o.at(o.p[0]), o.at(o.p[1]))), CurveCutKind::OnPlane,
       middle.facets[1], middle_planes[1], false);
-  if (degenerate || same_everywhere(constraints_[4], constraints_[5])) return;
+  if (same_everywhere(constraints_[4], constraints_[5])) return;
   const Ridge& last = g_.ridges()[outer.last];
   for (int k = 0; k < 2; ++k) {
     add(linear(outer.last_planes[k]), CurveCutKind::OnPlane, last.facets[k],
         {last.points[1 - k], last.points[k], last.thirds[k]}, false);
   }
-  if (degenerate || same_everywhere(constraints_[6], constraints_[7])) return;
+  if (same_everywhere(constraints_[6], constraints_[7])) return;
   // 8, 9: planes at the first edge, at Q(t(s)).
   const Ridge& first = g_.ridges()[outer.first];
   for (int k = 0; k < 2; ++k) {
@@ -536,8 +650,6 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
           plane, true);
     }
   }
-  if (degenerate) return;
-
   const Sign beside = orient3d(o.at(o.q[0]), o.at(o.q[1]), o.at(carrier.points[0]),
                                o.at(carrier.points[1]));
   std::array<const Constraint*, 10> order;
@@ -557,9 +669,9 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
     const auto at_first = [&](int c) {
       return constraints_[c].times_f0 ? sign[c] * sign[0] : sign[c];
     };
-    if (sign[0] != sign[1] && sign[2] != sign[3] && sign[4] != sign[5] &&
-        sign[6] != sign[7] && at_first(8) != at_first(9) && sign[0] == beside &&
-        curve.compare(from, to) == Sign::Negative) {
+    if (sign[0] != sign[1] && sign[2] != sign[3] && differ(sign[4], sign[5]) &&
+        differ(sign[6], sign[7]) && differ(at_first(8), at_first(9)) &&
+        sign[0] == beside && curve.compare(from, to) == Sign::Negative) {
       stretches_.push_back({{from, to}, sign[0]});
     }
     if (k == count) break;
@@ -810,6 +922,10 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
     const Star& star = g_.stars()[g_.star_of_point(corner)];
     if (!star.convex || star.touched || star.in_plane_only) return true;
   }
+  if ((cut.kind == CurveCutKind::OnFirst || cut.kind == CurveCutKind::OnPlane) &&
+      carriers_.touched_facets[cut.feature] != 0) {
+    return true;
+  }
   const Ridge& r = g_.ridges()[middle];
   ++node_stamp_;
   for (const int face : faces_) {
@@ -833,10 +949,11 @@ void EdgePairs::list_contacts(const EeeCurve& curve, const CurveCut& cut,
   const LineScan scan(scene_, faces_near_line(g_, rounded(a), rounded(b)), a, b);
   const bool end = contacts_between(g_, scan).end;
   const NodeContacts all = contacts_along(g_, scan, end);
-  if (all.kind == node.kind && !end) return;  // nothing new
+  if (all.kind == node.kind && !all.end)
+    return;  // nothing new; no kind found is Degenerate
   node.kind = all.kind;
   node.self = all.self;
-  node.end = end;
+  node.end = all.end;
   node.rising = false;
   node.all = all.generators;
 }

@@ -30,6 +30,9 @@ struct Carriers {
   std::vector<std::int32_t> starts;
   std::vector<Side> sides;
   std::vector<Box> object_boxes;
+  /// Facets of which some side is no ridge that stands free: lines in their planes need
+  /// the general contact test.
+  std::vector<std::uint8_t> touched_facets;
 
   [[nodiscard]] std::span<const Side> of_face(int face) const {
     return {sides.data() + starts[face],
@@ -110,6 +113,11 @@ class EdgePairs {
              const CurveInterval& stretch, Sign f0, Sign entry, bool& degenerate);
   [[nodiscard]] std::vector<CurveInterval> open_parts(const EeeCurve& curve,
                                                       const CurveInterval& stretch);
+  void add_arc(const Outer& outer, const EeeCurve& curve, int middle,
+               const CurveInterval& part, std::vector<FoundArc>& out);
+  [[nodiscard]] std::vector<CurveInterval> free_parts(const Outer& outer,
+                                                      const EeeCurve& curve,
+                                                      const CurveInterval& open);
   [[nodiscard]] FoundNode node_at(const Outer& outer, const EeeCurve& curve, int middle,
                                   const CurveCut& cut);
   [[nodiscard]] bool may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,

@@ -214,7 +214,7 @@ Rational rational(const Ring& x) {
 
 }  // namespace
 
-std::optional<std::array<ExactPoint, 2>> EeeCurve::points_at(const CurveCut& cut) const {
+std::optional<Rational> EeeCurve::rational_parameter(const CurveCut& cut) const {
   const Root root = exact(cut);
   Rational s = rational(root.a);
   if (!is_zero(root.b) && !is_zero(root.d)) {
@@ -222,7 +222,16 @@ std::optional<std::array<ExactPoint, 2>> EeeCurve::points_at(const CurveCut& cut
     if (!r) return std::nullopt;
     s += rational(root.b) * rational(*r);
   }
-  s /= rational(root.c);
+  return Rational(s / rational(root.c));
+}
+
+std::optional<std::array<ExactPoint, 2>> EeeCurve::points_at(const CurveCut& cut) const {
+  const auto s = rational_parameter(cut);
+  if (!s) return std::nullopt;
+  return points_at(*s);
+}
+
+std::optional<std::array<ExactPoint, 2>> EeeCurve::points_at(const Rational& s) const {
   const auto point = [](const Point& a, const Point& b, const Rational& x) {
     const ExactPoint p = exact_point(a);
     const ExactPoint q = exact_point(b);
@@ -236,6 +245,17 @@ std::optional<std::array<ExactPoint, 2>> EeeCurve::points_at(const CurveCut& cut
   const Rational t = f0 / (f0 - f1);
   return std::array<ExactPoint, 2>{point(pair_.at(pair_.p[0]), pair_.at(pair_.p[1]), s),
                                    point(pair_.at(pair_.q[0]), pair_.at(pair_.q[1]), t)};
+}
+
+std::optional<Rational> EeeCurve::between(const CurveCut& a, const CurveCut& b) const {
+  if (a.hi < b.lo) {
+    const double middle = a.hi + 0.5 * (b.lo - a.hi);
+    if (middle > a.hi && middle < b.lo) return Rational(middle);
+  }
+  const auto s = rational_parameter(a);
+  const auto t = rational_parameter(b);
+  if (!s || !t) return std::nullopt;
+  return Rational((*s + *t) / 2);
 }
 
 double EeeCurve::last_parameter(double s) const {

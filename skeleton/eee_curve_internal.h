@@ -143,6 +143,14 @@ class EeeCurve {
   [[nodiscard]] std::optional<std::array<ExactPoint, 2>> points_at(
       const CurveCut& cut) const;
 
+  [[nodiscard]] std::optional<std::array<ExactPoint, 2>> points_at(
+      const Rational& s) const;
+
+  /// A rational parameter strictly between two cuts; nullopt where they are irrational
+  /// and closer than doubles tell apart.
+  [[nodiscard]] std::optional<Rational> between(const CurveCut& a,
+                                                const CurveCut& b) const;
+
   /// t at s, rounded.
   [[nodiscard]] double last_parameter(double s) const;
 
@@ -151,6 +159,7 @@ class EeeCurve {
     Ring a, b, c, d;  // (a + b sqrt(d)) / c, c > 0
   };
   [[nodiscard]] Root exact(const CurveCut& cut) const;
+  [[nodiscard]] std::optional<Rational> rational_parameter(const CurveCut& cut) const;
   [[nodiscard]] const Form<Ring>& exact_form() const;
   [[nodiscard]] Ring exact_plane(const std::array<std::int32_t, 3>& plane,
                                  std::int32_t point) const;

@@ -235,7 +235,9 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan, bool end)
     reversed.insert(reversed.end(), group->begin(), group->end());
   }
   if (reversed < node.generators) node.generators = reversed;
-  node.end = end;
+  // A line along a face that ends where the face does.
+  const bool stops = scan.blocked(first) || scan.blocked(last);
+  node.end = end || (node.kind == NodeKind::FEE && stops);
   return node;
 }
 

@@ -21,6 +21,10 @@ inline std::string node_name(NodeKind kind) {
       return "EVE";
     case NodeKind::FvE:
       return "FvE";
+    case NodeKind::EEEE:
+      return "EEEE";
+    case NodeKind::FEE:
+      return "FEE";
     case NodeKind::Saddle:
       return "Saddle";
     case NodeKind::Pierce:
@@ -85,6 +89,14 @@ inline CanonicalSkeleton canonical(const Scene& scene, const Skeleton& skeleton,
     if (coordinates(ends[1]) < coordinates(ends[0]))
       std::swap(key.nodes[0], key.nodes[1]);
     result.arcs.push_back(std::move(key));
+  }
+  for (const EeeArc& arc : skeleton.eee_arcs) {
+    std::vector<GeneratorKey> along_line;
+    for (const std::int32_t e : arc.edges) {
+      along_line.push_back(generator_key({GeneratorKind::Edge, e}));
+    }
+    result.arcs.push_back(arc_key("EEE", std::move(along_line), arc.self,
+                                  {by_id[arc.nodes[0]], by_id[arc.nodes[1]]}));
   }
   result.nodes = std::move(by_id);
   result.sort();
