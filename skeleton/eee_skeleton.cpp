@@ -55,9 +55,13 @@ class LineJoiner {
     }
   }
 
-  void add(FoundArc& found) {
-    for (int k = 0; k < 2; ++k) found.arc.nodes[k] = add_node(found.ends[k]);
-    out_.eee_arcs.push_back(found.arc);
+  /// All arcs of one first edge.
+  void add(std::vector<FoundArc>& arcs) {
+    local_.clear();
+    for (FoundArc& found : arcs) {
+      for (int k = 0; k < 2; ++k) found.arc.nodes[k] = add_node(found.ends[k]);
+      out_.eee_arcs.push_back(found.arc);
+    }
   }
 
  private:
@@ -67,9 +71,11 @@ class LineJoiner {
         found.all.empty()
             ? std::span<const Generator>(found.generators.data(), found.count)
             : std::span<const Generator>(found.all);
+    // Both arcs that end at an EEEE are found between the same outer edges.
+    auto& nodes = found.kind == NodeKind::EEEE ? local_ : known_;
     const auto [at, fresh] =
-        known_.try_emplace(key_of(found.kind, found.rising, generators),
-                           static_cast<std::uint32_t>(out_.nodes.size()));
+        nodes.try_emplace(key_of(found.kind, found.rising, generators),
+                          static_cast<std::uint32_t>(out_.nodes.size()));
     if (fresh) append(found, generators);
     return at->second;
   }
@@ -97,7 +103,7 @@ class LineJoiner {
   }
 
   Skeleton& out_;
-  std::unordered_map<LineKey, std::uint32_t, LineHash> known_;
+  std::unordered_map<LineKey, std::uint32_t, LineHash> known_, local_;
   std::map<std::vector<Generator>, std::uint32_t> degenerate_;
 };
 
@@ -140,7 +146,7 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
   const EeeSelection selection = selection_of(generators, request);
   const std::size_t count = generators.ridges().size();
   skeleton.edges_asked = count;
-  std::vector<std::optional<std::vector<FoundArc>>> found(count);
+  LineJoiner joiner(skeleton);
   for_each_parallel(
       count, request, start, progress, skeleton.predicates,
       [&] { return std::make_unique<EdgePairs>(generators, carriers, selection); },
@@ -151,15 +157,12 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
           return std::pair(a.arc.edges, a.arc.range) <
                  std::pair(b.arc.edges, b.arc.range);
         });
-        found[i] = std::move(arcs);
+        return arcs;
+      },
+      [&](std::size_t, std::vector<FoundArc>&& arcs) {
+        joiner.add(arcs);
+        ++skeleton.edges_done;
       });
-  LineJoiner joiner(skeleton);
-  for (auto& arcs : found) {
-    if (!arcs) continue;
-    ++skeleton.edges_done;
-    for (FoundArc& arc : *arcs) joiner.add(arc);
-    arcs.reset();
-  }
   skeleton.complete = skeleton.complete && skeleton.edges_done == skeleton.edges_asked;
 }
 

@@ -3,10 +3,9 @@
 
 #pragma once
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -14,8 +13,10 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
-#include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "linespace/predicates.h"
 #include "linespace/request.h"
@@ -32,53 +33,86 @@ namespace sightline::internal {
           a.by_exact - b.by_exact};
 }
 
-/// Calls step(worker, i) for i = 0, ..., count - 1, in chunks of 8, with a worker per
-/// thread from make(); stops early when the request's budget, counted from `start`, ends
-/// or a stop is requested.  Progress goes from progress[0] to progress[1].
-template <class Make, class Step>
+/// Calls step(worker, i) for i = 0, ..., count - 1 on several threads, with a worker per
+/// thread from make(), and consume(i, result) with what it returns: one at a time, in
+/// order, soon after, so that results need not be held.  Stops early when the request's
+/// budget, counted from `start`, ends or a stop is requested: what was begun is consumed,
+/// a prefix of all.  Progress goes from progress[0] to progress[1].
+template <class Make, class Step, class Consume>
 void for_each_parallel(std::size_t count, const Request& request,
                        std::chrono::steady_clock::time_point start,
                        std::array<double, 2> progress, StageCounts& counts, Make&& make,
-                       Step&& step) {
+                       Step&& step, Consume&& consume) {
   const int threads = threads_of(request);
-  std::atomic<bool> stopped{false};
-  std::atomic<std::size_t> done{0};
-  std::mutex mutex;
   using Worker = decltype(make());
+  using Result = decltype(step(*std::declval<Worker&>(), std::size_t{0}));
+  struct Batch {
+    std::size_t first = 0;
+    std::vector<std::optional<Result>> results;
+    StageCounts counts;
+  };
+  constexpr std::size_t kBatch = 4;
+  constexpr std::size_t kBatchesInFlight = 256;
+  std::atomic<bool> stopped{false};
+  std::size_t next = 0;
+  bool cut = false;
   oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
   oneapi::tbb::task_arena arena(threads);
   oneapi::tbb::enumerable_thread_specific<Worker> workers;
+  const auto first_of_batch = [&](oneapi::tbb::flow_control& flow) -> std::size_t {
+    if (next >= count || stopped.load(std::memory_order_relaxed)) {
+      flow.stop();
+      return 0;
+    }
+    const std::size_t first = next;
+    next += kBatch;
+    return first;
+  };
+  const auto compute = [&](std::size_t first) {
+    const PrecisionScope scope(request.precision);
+    const StageCounts at_first = thread_stage_counts();
+    auto batch = std::make_shared<Batch>();
+    batch->first = first;
+    Worker& worker = workers.local();
+    if (!worker) worker = make();
+    for (std::size_t i = first; i < std::min(count, first + kBatch); ++i) {
+      const std::chrono::duration<double> elapsed =
+          std::chrono::steady_clock::now() - start;
+      if (request.stop.stop_requested() || elapsed.count() > request.budget_seconds) {
+        stopped = true;
+      }
+      if (stopped.load(std::memory_order_relaxed)) break;
+      batch->results.emplace_back(step(*worker, i));
+    }
+    batch->counts = difference(thread_stage_counts(), at_first);
+    return batch;
+  };
+  const auto deliver = [&](const std::shared_ptr<Batch>& batch) {
+    for (std::size_t k = 0; k < batch->results.size() && !cut; ++k) {
+      consume(batch->first + k, std::move(*batch->results[k]));
+    }
+    // Nothing after a gap, so that a partial answer is a prefix.
+    if (batch->results.size() < std::min(kBatch, count - batch->first)) cut = true;
+    counts.by_double += batch->counts.by_double;
+    counts.by_interval += batch->counts.by_interval;
+    counts.by_exact += batch->counts.by_exact;
+    if (request.progress) {
+      const double share = static_cast<double>(batch->first + batch->results.size()) /
+                           static_cast<double>(std::max<std::size_t>(1, count));
+      request.progress(progress[0] + (progress[1] - progress[0]) * share);
+    }
+  };
   arena.execute([&] {
-    oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<std::size_t>(0, count, 8), [&](const auto& range) {
-          const PrecisionScope scope(request.precision);
-          const StageCounts at_first = thread_stage_counts();
-          Worker& worker = workers.local();
-          if (!worker) worker = make();
-          for (std::size_t i = range.begin(); i < range.end(); ++i) {
-            if (stopped.load(std::memory_order_relaxed)) break;
-            const std::chrono::duration<double> elapsed =
-                std::chrono::steady_clock::now() - start;
-            if (request.stop.stop_requested() ||
-                elapsed.count() > request.budget_seconds) {
-              stopped = true;
-              break;
-            }
-            step(*worker, i);
-            ++done;
-          }
-          const StageCounts used = difference(thread_stage_counts(), at_first);
-          const std::lock_guard lock(mutex);
-          counts.by_double += used.by_double;
-          counts.by_interval += used.by_interval;
-          counts.by_exact += used.by_exact;
-          if (request.progress) {
-            const double share = static_cast<double>(done.load()) /
-                                 static_cast<double>(std::max<std::size_t>(1, count));
-            request.progress(progress[0] + (progress[1] - progress[0]) * share);
-          }
-        });
+    using oneapi::tbb::filter_mode;
+    oneapi::tbb::parallel_pipeline(
+        kBatchesInFlight,
+        oneapi::tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order,
+                                                    first_of_batch) &
+            oneapi::tbb::make_filter<std::size_t, std::shared_ptr<Batch>>(
+                filter_mode::parallel, compute) &
+            oneapi::tbb::make_filter<std::shared_ptr<Batch>, void>(
+                filter_mode::serial_in_order, deliver));
   });
 }
 

@@ -118,18 +118,15 @@ void build_ev(const Generators& generators, const SkeletonRequest& request,
   const std::vector<int> stars = selected_stars(generators, request);
   const Selection selection = selected_ridges(generators, request);
   skeleton.vertices_asked = stars.size();
-  std::vector<std::optional<VertexView>> views(stars.size());
+  Joiner joiner(skeleton);
   internal::for_each_parallel(
       stars.size(), request, start, {0, progress_share}, skeleton.predicates,
       [&] { return std::make_unique<VertexViewer>(generators, selection); },
-      [&](VertexViewer& viewer, std::size_t i) { views[i] = viewer.view(stars[i]); });
-  Joiner joiner(skeleton);
-  for (auto& view : views) {
-    if (!view) continue;
-    joiner.add(*view);
-    view.reset();
-    ++skeleton.vertices_done;
-  }
+      [&](VertexViewer& viewer, std::size_t i) { return viewer.view(stars[i]); },
+      [&](std::size_t, VertexView&& view) {
+        joiner.add(view);
+        ++skeleton.vertices_done;
+      });
   skeleton.complete = skeleton.vertices_done == skeleton.vertices_asked;
 }
 
