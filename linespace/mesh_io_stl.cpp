@@ -127,7 +127,7 @@ class AsciiReader {
   void expect(std::string_view word) {
     const std::string_view token = lines_.token();
     if (!same_word(token, word)) {
-      lines_.refuse("'" + std::string(word) + "' expected, found " + quoted(token));
+      lines_.refuse(quoted(word) + " expected, found " + quoted(token));
     }
   }
 
