@@ -18,29 +18,13 @@
 #include "linespace/line_sampling.h"
 #include "linespace/occlusion.h"
 #include "linespace/visibility_estimate.h"
+#include "tests/support/embree_rays.h"
 #include "tests/support/generators.h"
 
 namespace sightline {
 namespace {
 
 constexpr int kSegments = 1 << 16;
-
-PolygonSoup triangle_soup(int count) {
-  testing::Random random(5);
-  PolygonSoup soup;
-  for (int i = 0; i < count; ++i) {
-    const Point center(random.uniform(-1, 1), random.uniform(-1, 1),
-                       random.uniform(-1, 1));
-    const double size = 1.5 / std::sqrt(static_cast<double>(count));
-    for (int c = 0; c < 3; ++c) {
-      soup.vertices.push_back(center + Point(random.uniform(-size, size),
-                                             random.uniform(-size, size),
-                                             random.uniform(-size, size)));
-    }
-    soup.polygons.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-  }
-  return soup;
-}
 
 // The faces nearest to a point.
 std::vector<int> faces_at(const Scene& scene, const Point& place, std::size_t count) {
@@ -59,14 +43,13 @@ struct Setting {
   std::unique_ptr<Scene> scene;
   std::unique_ptr<OcclusionIndex> index;
   std::vector<int> a, b;
-  RTCDevice device = rtcNewDevice(nullptr);
-  RTCScene embree = rtcNewScene(device);
+  std::unique_ptr<testing::EmbreeTriangles> embree;
   std::vector<RTCRay> rays;  // of the first kSegments samples
 
   Setting(bool soup, int thousands, bool all) {
     const int count = 1000 * thousands;
-    scene =
-        std::make_unique<Scene>(soup ? triangle_soup(count) : testing::city(3, count));
+    scene = std::make_unique<Scene>(soup ? testing::triangle_soup(5, count)
+                                         : testing::city(3, count));
     index = std::make_unique<OcclusionIndex>(*scene);
     if (all) {
       a.resize(scene->faces().size());
@@ -77,39 +60,8 @@ struct Setting {
       a = faces_at(*scene, low + 0.4 * (high - low), 6);
       b = faces_at(*scene, low + 0.6 * (high - low), 6);
     }
-    add_to_embree();
+    embree = std::make_unique<testing::EmbreeTriangles>(*scene);
     make_rays();
-  }
-
-  void add_to_embree() {
-    rtcSetSceneFlags(embree, RTC_SCENE_FLAG_ROBUST);
-    rtcSetSceneBuildQuality(embree, RTC_BUILD_QUALITY_HIGH);
-    std::vector<float> vertices;
-    for (const Point& p : scene->points()) {
-      for (const double x : p) vertices.push_back(static_cast<float>(x));
-    }
-    std::vector<unsigned> triangles;
-    for (int f = 0; f < static_cast<int>(scene->faces().size()); ++f) {
-      const auto ids = scene->face_points(f);
-      for (std::size_t i = 1; i + 1 < ids.size(); ++i) {
-        for (const int p : {ids[0], ids[i], ids[i + 1]}) {
-          triangles.push_back(static_cast<unsigned>(p));
-        }
-      }
-    }
-    const RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    std::copy(vertices.begin(), vertices.end(),
-              static_cast<float*>(rtcSetNewGeometryBuffer(
-                  geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                  3 * sizeof(float), vertices.size() / 3)));
-    std::copy(triangles.begin(), triangles.end(),
-              static_cast<unsigned*>(rtcSetNewGeometryBuffer(
-                  geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                  3 * sizeof(unsigned), triangles.size() / 3)));
-    rtcCommitGeometry(geometry);
-    rtcAttachGeometry(embree, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(embree);
   }
 
   // Ends stand off by a thousandth, so that Embree does not hit the end faces: this is
@@ -119,16 +71,7 @@ struct Setting {
     for (int i = 0; i < kSegments; ++i) {
       SampleNumbers numbers(1, static_cast<std::uint64_t>(i));
       const PairSegment s = segment_between(from, to, numbers);
-      const Point d = s.b.point - s.a.point;
-      RTCRay ray{};
-      ray.org_x = static_cast<float>(s.a.point[0]);
-      ray.org_y = static_cast<float>(s.a.point[1]);
-      ray.org_z = static_cast<float>(s.a.point[2]);
-      ray.dir_x = static_cast<float>(d[0]);
-      ray.dir_y = static_cast<float>(d[1]);
-      ray.dir_z = static_cast<float>(d[2]);
-      ray.mask = ~0u;
-      rays.push_back(ray);
+      rays.push_back(testing::embree_ray(s.a.point, s.b.point, 0.001F, 0.999F));
     }
   }
 };
@@ -153,9 +96,7 @@ void BM_embree(benchmark::State& state) {
     for (RTCRay ray : s.rays) {
       RTCIntersectContext context;
       rtcInitIntersectContext(&context);
-      ray.tnear = 0.001F;
-      ray.tfar = 0.999F;
-      rtcOccluded1(s.embree, &context, &ray);
+      rtcOccluded1(s.embree->scene(), &context, &ray);
       free += !(ray.tfar < 0);
     }
   }
@@ -181,11 +122,11 @@ void BM_embree_packets(benchmark::State& state) {
         rays.dir_x[r] = ray.dir_x;
         rays.dir_y[r] = ray.dir_y;
         rays.dir_z[r] = ray.dir_z;
-        rays.tnear[r] = 0.001F;
-        rays.tfar[r] = 0.999F;
+        rays.tnear[r] = ray.tnear;
+        rays.tfar[r] = ray.tfar;
         rays.mask[r] = ~0u;
       }
-      rtcOccluded8(valid, s.embree, &context, &rays);
+      rtcOccluded8(valid, s.embree->scene(), &context, &rays);
       for (const float tfar : rays.tfar) free += !(tfar < 0);
     }
   }

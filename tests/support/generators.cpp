@@ -591,6 +591,23 @@ PolygonSoup grid_city(std::uint64_t seed, int polygon_count,
   return soup;
 }
 
+PolygonSoup triangle_soup(std::uint64_t seed, int count) {
+  Random random(seed);
+  const auto point = [&](double size) {
+    Point p;
+    for (double& x : p) x = random.uniform(-size, size);
+    return p;
+  };
+  const double size = 1.5 / std::sqrt(static_cast<double>(count));
+  PolygonSoup soup;
+  for (int i = 0; i < count; ++i) {
+    const Point center = point(1);
+    for (int c = 0; c < 3; ++c) soup.vertices.emplace_back(center + point(size));
+    soup.polygons.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+  }
+  return soup;
+}
+
 void write_obj(const std::string& path, const PolygonSoup& soup) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(
       std::fopen(path.c_str(), "w"), &std::fclose);

@@ -135,6 +135,10 @@ struct GridCityOptions {
 [[nodiscard]] PolygonSoup grid_city(std::uint64_t seed, int polygon_count,
                                     const GridCityOptions& options = {});
 
+/// `count` triangles scattered in the cube [-1, 1]^3, which intersect at will; about as
+/// many are met by a line whatever the count.  No groups.
+[[nodiscard]] PolygonSoup triangle_soup(std::uint64_t seed, int count);
+
 /// Writes an OBJ file, doubles with 17 digits, one `o` line per group.  Throws
 /// std::runtime_error when the file cannot be written.
 void write_obj(const std::string& path, const PolygonSoup& soup);
