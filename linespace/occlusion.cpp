@@ -551,6 +551,7 @@ void OcclusionIndex::Impl::ask_packet(std::span<const internal::FaceSegment> seg
     answers[r] = rays.tfar[r] < 0      ? internal::Certainty::Blocked
                  : doubtful[r].empty() ? internal::Certainty::Free
                                        : internal::Certainty::Doubtful;
+    thread_stage_counts().by_double += answers[r] != internal::Certainty::Doubtful;
   }
 }
 
@@ -630,12 +631,16 @@ Contact clipped(const LineScan& scan, int c, const Rational& lo, const Rational&
 bool OcclusionIndex::is_free(const Point& a, const Point& b) const {
   if (a == b) return true;
   std::vector<int> doubtful;
-  if (const auto certain = impl_->is_free_for_certain(a, b, doubtful)) return *certain;
+  if (const auto certain = impl_->is_free_for_certain(a, b, doubtful)) {
+    ++thread_stage_counts().by_double;
+    return *certain;
+  }
   return internal::OcclusionAccess::is_free_of(scene(), std::move(doubtful), a, b);
 }
 
 bool internal::OcclusionAccess::is_free_of(const Scene& scene, std::vector<int> faces,
                                            const Point& a, const Point& b) {
+  ++thread_stage_counts().by_exact;
   const LineScan scan(scene, unique_sorted(std::move(faces)), a, b);
   for (int c = 0; c < scan.size(); ++c) {
     if (scan.to(c) <= 0 || scan.from(c) >= 1) continue;

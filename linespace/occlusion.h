@@ -72,6 +72,8 @@ class OcclusionIndex {
   /// No contact inside the open segment ab blocks.  Contacts at a and b themselves do not
   /// count; a contact that contains a or b and extends into the segment is judged by
   /// its part inside the open segment together with what surrounds that part.
+  /// thread_stage_counts() says what decided: double arithmetic, or exact numbers where a
+  /// contact may touch a face's boundary or an end.
   [[nodiscard]] bool is_free(const Point& a, const Point& b) const;
 
   /// All contacts of the closed segment ab, from a to b.

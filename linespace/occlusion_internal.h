@@ -26,14 +26,15 @@ inline constexpr int kPacket = 8;
 
 struct OcclusionAccess {
   /// For each of at most kPacket segments: what double arithmetic can certify.  Of a
-  /// Doubtful one, doubtful[i] holds the faces it perhaps meets, one entry per item.
+  /// Doubtful one, doubtful[i] holds the faces it perhaps meets, one entry per item; the
+  /// others are counted as decided by doubles.
   /// Requires a != b, ends within the scene's box (an ulp outside is no harm).
   static void ask_packet(const OcclusionIndex& index,
                          std::span<const FaceSegment> segments,
                          std::span<Certainty> answers,
                          std::span<std::vector<int>> doubtful);
 
-  /// Exactly: no contact of the open segment with these faces blocks.
+  /// Exactly, and counted so: no contact of the open segment with these faces blocks.
   static bool is_free_of(const Scene& scene, std::vector<int> faces, const Point& a,
                          const Point& b);
 };

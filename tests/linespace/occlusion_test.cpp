@@ -105,6 +105,41 @@ TEST(IsFree, GenericSegmentsAsByPredicates) {
   }
 }
 
+TEST(IsFree, GenericSegmentsNeedNoExactNumbers) {
+  constexpr int kSegments = 20000;
+  const std::vector<PolygonSoup> soups = {testing::city(3, 2000),
+                                          testing::triangle_soup(5, 2000)};
+  for (const PolygonSoup& soup : soups) {
+    const Scene scene(soup);
+    const OcclusionIndex index(scene);
+    testing::Random random(17);
+    const StageCounts before = thread_stage_counts();
+    int free = 0;
+    for (int i = 0; i < kSegments; ++i) {
+      const Point a = random_point(random, scene.bounds());
+      Point b = random_point(random, scene.bounds());
+      if (i % 2 == 1) b = a + random.uniform(0, 1) * (b - a);
+      free += index.is_free(a, b);
+    }
+    EXPECT_GT(free, 1000);
+    EXPECT_LT(free, kSegments - 1000);
+    const StageCounts& after = thread_stage_counts();
+    EXPECT_EQ(after.by_exact, before.by_exact);
+    EXPECT_EQ(after.by_double, before.by_double + kSegments);
+  }
+}
+
+// Were the count above always 0, it would say nothing.
+TEST(IsFree, SegmentsThroughSidesCountAsExact) {
+  const Scene scene(one_quad());
+  const OcclusionIndex index(scene);
+  const StageCounts before = thread_stage_counts();
+  EXPECT_TRUE(index.is_free(Point(4, 2, -1), Point(4, 2, 1)));
+  EXPECT_FALSE(index.is_free(Point(2, 2, -1), Point(2, 2, 1)));
+  EXPECT_EQ(thread_stage_counts().by_exact, before.by_exact + 1);
+  EXPECT_EQ(thread_stage_counts().by_double, before.by_double + 1);
+}
+
 // Between vertices, midpoints of sides and centres of faces: touching everywhere.
 TEST(IsFree, SegmentsBetweenFeaturesAsNaive) {
   std::vector<PolygonSoup> soups = {testing::grid_city(1, 120), testing::city(2, 120),
