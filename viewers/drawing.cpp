@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -210,12 +211,25 @@ int guess_up_axis(const Scene& scene) {
   return 1;
 }
 
+namespace {
+
+// A direction towards the eye, off the axes and diagonals, where aligned scenes look
+// flat.
+Point eye_direction(int up_axis, double elevation, double turn) {
+  Point up = Point::Zero(), ahead = Point::Zero();
+  up[up_axis] = 1;
+  ahead[(up_axis + 1) % 3] = 1;
+  const Point aside = up.cross(ahead);
+  const double azimuth = 0.31 + 2 * M_PI * turn;
+  return std::sin(elevation) * up +
+         std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside);
+}
+
+}  // namespace
+
 SceneView view_scene(const Scene& scene, const ViewOptions& options) {
   const int axis = options.up_axis >= 0 ? options.up_axis : guess_up_axis(scene);
-  Point up = Point::Zero(), ahead = Point::Zero();
-  up[axis] = 1;
-  ahead[(axis + 1) % 3] = 1;
-  const Point aside = up.cross(ahead);
+  const Point up = Point::Unit(axis);
   const double aspect = static_cast<double>(options.width) / options.height;
 
   std::array<Point, 2> framed = scene.bounds();
@@ -239,11 +253,8 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
   double best_score = -1;
   for (const double elevation : {0.42, 0.62}) {
     for (int turn = 0; turn < turns; ++turn) {
-      // Off the axes and diagonals, where aligned scenes look flat.
-      const double azimuth = 0.31 + 2 * M_PI * turn / turns;
       const Point direction =
-          std::sin(elevation) * up +
-          std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside);
+          eye_direction(axis, elevation, static_cast<double>(turn) / turns);
       const Drawing faces = draw_faces(scene, faces_shown(scene, direction));
       const Camera camera = frame(framed, direction, up, aspect);
       const double score = entropy(visible_ids(faces, camera, 168, 118), counts);
@@ -263,6 +274,22 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
     if (shown[f]) view.polygon_shown[scene.faces()[f].source] = 1;
   }
   add_edges(view.drawing, scene, shown, view.camera.eye);
+  return view;
+}
+
+SceneView view_marks(std::span<const VeilTriangle> veils, std::span<const Stroke> strokes,
+                     const ViewOptions& options) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<Point, 2> framed = {Point::Constant(kInfinity), Point::Constant(-kInfinity)};
+  const auto include = [&](std::span<const Point> points) {
+    for (const Point& p : points) framed = {framed[0].cwiseMin(p), framed[1].cwiseMax(p)};
+  };
+  for (const VeilTriangle& veil : veils) include(veil.points);
+  for (const Stroke& stroke : strokes) include(stroke.points);
+  const int axis = options.up_axis >= 0 ? options.up_axis : 2;
+  SceneView view;
+  view.camera = frame(framed, eye_direction(axis, 0.42, 0), Point::Unit(axis),
+                      static_cast<double>(options.width) / options.height);
   return view;
 }
 

@@ -39,6 +39,12 @@ struct SceneView {
 /// thin things close by more than half.
 [[nodiscard]] SceneView view_scene(const Scene& scene, const ViewOptions& options = {});
 
+/// The camera for lines and polygons without a scene: all of them in the frame, z up
+/// unless the options say otherwise.  Requires one at least.
+[[nodiscard]] SceneView view_marks(std::span<const VeilTriangle> veils,
+                                   std::span<const Stroke> strokes,
+                                   const ViewOptions& options = {});
+
 /// The triangle between vertex and edge part of each arc listed; `opacity` of one.
 void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
               std::span<const int> arcs, float opacity);

@@ -37,7 +37,7 @@ fs::path file_of(const fs::path& what) {
 }
 
 struct Shown {
-  Scene scene;
+  std::optional<Scene> scene;  // none in files of lines alone
   std::optional<Skeleton> skeleton;
   std::vector<VeilTriangle> veils;
   std::vector<Stroke> strokes;
@@ -47,10 +47,9 @@ Shown read_shown(const fs::path& file) {
   const std::string extension = file.extension();
   if (extension == ".vtm" || extension == ".vtp") {
     VtkPicture picture = read_vtk(file);
-    return {Scene(std::move(picture.soup)),
-            {},
-            std::move(picture.veils),
-            std::move(picture.strokes)};
+    Shown shown{{}, {}, std::move(picture.veils), std::move(picture.strokes)};
+    if (!picture.soup.polygons.empty()) shown.scene.emplace(std::move(picture.soup));
+    return shown;
   }
   if (extension == ".json") {
     StoredSkeleton stored = read_skeleton_json(file.string());
@@ -66,11 +65,12 @@ void write_picture(const ViewCommandOptions& options, const Shown& shown) {
   view_options.width = options.size[0];
   view_options.height = options.size[1];
   if (!options.up.empty()) view_options.up_axis = options.up[0] - 'x';
-  SceneView view = view_scene(shown.scene, view_options);
+  SceneView view = shown.scene ? view_scene(*shown.scene, view_options)
+                               : view_marks(shown.veils, shown.strokes, view_options);
   if (shown.skeleton) {
     const Skeleton& skeleton = *shown.skeleton;
     const std::vector<int> arcs = evenly_spread(skeleton.arcs.size(), 1500);
-    add_arcs(view.drawing, shown.scene, skeleton, arcs,
+    add_arcs(view.drawing, *shown.scene, skeleton, arcs,
              static_cast<float>(std::clamp(8 / (arcs.size() + 1.0), 0.004, 0.2)));
     add_nodes(view.drawing, skeleton, evenly_spread(skeleton.nodes.size(), 4000), 0.4F,
               1.2F);
@@ -104,7 +104,7 @@ void open_window(const fs::path& file, const Shown& shown) {
     throw OutputError(pattern + ": cannot be written: no temporary folder");
   }
   const fs::path folder(pattern);
-  write_vtk(folder, shown.scene, {shown.skeleton ? &*shown.skeleton : nullptr, nullptr});
+  write_vtk(folder, *shown.scene, {shown.skeleton ? &*shown.skeleton : nullptr, nullptr});
   show_window(folder / "sightline.vtm");
   fs::remove_all(folder);
 }

@@ -338,6 +338,12 @@ vtkSmartPointer<vtkPolyData> read_poly_data(const std::filesystem::path& file) {
   return reader->GetOutput();
 }
 
+void require_content(const VtkPicture& picture) {
+  if (picture.soup.polygons.empty() && picture.veils.empty() && picture.strokes.empty()) {
+    throw InvalidInput(picture.soup.source + ": has nothing to show");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> write_vtk(const std::filesystem::path& folder,
@@ -403,8 +409,9 @@ VtkPicture read_vtk(const std::filesystem::path& file) {
   picture.soup.source = file.string();
   if (file.extension() == ".vtp") {
     const std::filesystem::path scene = file.parent_path() / "scene.vtp";
-    read_scene(picture, read_poly_data(scene));
+    if (std::filesystem::exists(scene)) read_scene(picture, read_poly_data(scene));
     if (file.filename() != "scene.vtp") read_marks(picture, read_poly_data(file));
+    require_content(picture);
     return picture;
   }
   if (!std::filesystem::is_regular_file(file)) {
@@ -428,9 +435,7 @@ VtkPicture read_vtk(const std::filesystem::path& file) {
       read_marks(picture, data);
     }
   }
-  if (picture.soup.polygons.empty()) {
-    throw InvalidInput(file.string() + ": has no block named scene");
-  }
+  require_content(picture);
   return picture;
 }
 

@@ -60,15 +60,15 @@ struct LineBlock {
 std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
                                          const std::vector<LineBlock>& blocks);
 
-/// What view can show of files written by write_vtk.
+/// What view can show of files written by write_vtk or write_vtk_lines.
 struct VtkPicture {
-  PolygonSoup soup;                 ///< the block "scene"
-  std::vector<VeilTriangle> veils;  ///< arcs and strips
-  std::vector<Stroke> strokes;      ///< nodes
+  PolygonSoup soup;                 ///< the block "scene"; empty where there is none
+  std::vector<VeilTriangle> veils;  ///< arcs, strips and other polygons
+  std::vector<Stroke> strokes;      ///< nodes and other lines
 };
 
-/// Reads a .vtm of ours, or a single .vtp of ours beside its scene.vtp.  Throws
-/// InvalidInput.
+/// Reads a .vtm of ours, or a single .vtp of ours with the scene.vtp beside it, if any.
+/// Throws InvalidInput, also when there is nothing to show.
 [[nodiscard]] VtkPicture read_vtk(const std::filesystem::path& file);
 
 }  // namespace sightline::viewers

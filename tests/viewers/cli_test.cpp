@@ -356,6 +356,14 @@ class Questions : public Cli {
     std::ofstream(path, std::ios::binary) << text;
     return path.string();
   }
+
+  void expect_picture(const std::string& what) {
+    const fs::path png = folder_ / "picture.png";
+    const Run r = run({"view", what, "--png", png.string(), "--size", "400,300"});
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_EQ(contents(png).substr(1, 3), "PNG");
+    fs::remove(png);
+  }
 };
 
 TEST_F(Questions, TransversalsOfPublishedSegments) {
@@ -400,6 +408,7 @@ TEST_F(Questions, TransversalsAsVtkFiles) {
     EXPECT_TRUE(fs::exists(fs::path(vtk) / name)) << name;
   }
   EXPECT_FALSE(fs::exists(fs::path(vtk) / "family_samples.vtp"));
+  expect_picture(vtk);
 }
 
 TEST_F(Questions, BadFilesAreRefusedByElement) {
@@ -471,6 +480,8 @@ TEST_F(Questions, StabAsVtkFiles) {
     EXPECT_TRUE(fs::exists(fs::path(vtk) / name)) << name;
   }
   EXPECT_FALSE(fs::exists(fs::path(vtk) / "extremal_EEEE.vtp"));
+  expect_picture(vtk);
+  expect_picture(vtk + "/extremal_VV.vtp");
 }
 
 TEST_F(Questions, BadPortalsAreRefusedByElement) {

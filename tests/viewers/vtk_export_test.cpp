@@ -6,9 +6,11 @@
 #include <unistd.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <fstream>
 
 #include "linespace/mesh_io.h"
+#include "viewers/drawing.h"
 #include "viewers/output_file.h"
 #include "viewers/palette.h"
 
@@ -85,10 +87,47 @@ TEST_F(VtkExport, StripsReachTheFacesThatEndThem) {
   EXPECT_GT(ended, 50);
 }
 
+TEST_F(VtkExport, LinesWithoutASceneCanBeShown) {
+  LineBlock portals{"portals", "portal", {}};
+  portals.polygons.push_back({{{7, 0, 0}, {9, 0, 0}, {9, 0, 2}, {7, 0, 2}}, ""});
+  LineBlock lines{"lines", "VV", {}};
+  lines.pieces.push_back({{5, -2, 0}, {9, 3, 2}, ""});
+  write_vtk_lines(folder_, {portals, lines});
+  const VtkPicture picture = read_vtk(folder_ / "sightline.vtm");
+  EXPECT_TRUE(picture.soup.polygons.empty());
+  EXPECT_EQ(picture.strokes.size(), 1U);
+  EXPECT_EQ(picture.veils.size(), 2U);
+  EXPECT_EQ(read_vtk(folder_ / "lines.vtp").strokes.size(), 1U);
+
+  // All of them in the picture, which they fill.
+  constexpr int kSide = 100;
+  const SceneView view = view_marks(picture.veils, picture.strokes,
+                                    {.width = kSide, .height = kSide, .focus = {}});
+  PictureOptions options;
+  options.width = options.height = kSide;
+  const Image bare = render({}, view.camera, options);
+  const Image drawn = render({{}, picture.veils, picture.strokes}, view.camera, options);
+  int left = kSide, right = -1, top = kSide, bottom = -1;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    if (std::equal(&bare.rgb[3 * i], &bare.rgb[3 * i] + 3, &drawn.rgb[3 * i])) continue;
+    left = std::min(left, i % kSide);
+    right = std::max(right, i % kSide);
+    top = std::min(top, i / kSide);
+    bottom = std::max(bottom, i / kSide);
+  }
+  EXPECT_GT(left, 0);
+  EXPECT_GT(top, 0);
+  EXPECT_LT(right, kSide - 1);
+  EXPECT_LT(bottom, kSide - 1);
+  EXPECT_GT(std::max(right - left, bottom - top), kSide / 2);
+}
+
 TEST_F(VtkExport, UnreadableFilesAreRefused) {
   std::ofstream(folder_ / "bad.vtp") << "not VTK";
   EXPECT_THROW((void)read_vtk(folder_ / "bad.vtp"), InvalidInput);
   EXPECT_THROW((void)read_vtk(folder_ / "none.vtm"), InvalidInput);
+  write_vtk_lines(folder_, {});
+  EXPECT_THROW((void)read_vtk(folder_ / "sightline.vtm"), InvalidInput);
 }
 
 TEST_F(VtkExport, FilesAreWholeOrNotThere) {
