@@ -137,6 +137,18 @@ FreeSegment SkeletonLines::line(const SkeletonArc& arc, double s) const {
       along(impl_->point(edge.points[0]), impl_->point(edge.points[1]), Rational(s)));
 }
 
+std::optional<FreeSegment> SkeletonLines::line(const EeeArc& arc, double s) const {
+  const auto& edges = impl_->scene.edges();
+  const auto& first = edges[arc.edges[0]].points;
+  const auto& middle = edges[arc.edges[1]].points;
+  const ExactPoint p = along(impl_->point(first[0]), impl_->point(first[1]), Rational(s));
+  // On the last edge, where the plane of p and the middle edge crosses it.
+  const auto q =
+      impl_->crossing(arc.edges[2], p, impl_->point(middle[0]), impl_->point(middle[1]));
+  if (!q) return std::nullopt;
+  return impl_->line(p, *q);
+}
+
 std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) const {
   const Scene& scene = impl_->scene;
   const auto& g = impl_->generators;

@@ -25,6 +25,12 @@ class SkeletonLines {
   /// some 10 microseconds.
   [[nodiscard]] FreeSegment line(const SkeletonArc& arc, double s) const;
 
+  /// The line through the point of the arc's first edge at parameter s (position 0), the
+  /// middle edge, and the last edge (position 1), exactly, for s strictly inside the
+  /// arc's range.  nullopt when the plane of that point and the middle edge is parallel
+  /// to the last edge, which happens only outside the arc.  Cost as above.
+  [[nodiscard]] std::optional<FreeSegment> line(const EeeArc& arc, double s) const;
+
   /// A part of an arc whose lines have the same faces at both far ends.
   struct Piece {
     std::array<double, 2> range;  ///< parameters along the edge, rounded
@@ -35,8 +41,8 @@ class SkeletonLines {
   [[nodiscard]] std::vector<Piece> pieces(const SkeletonArc& arc) const;
 
   /// The line of a node, from its first contact (position 0) to its last (1).  nullopt
-  /// for lines that end at their last contact, and for degenerate ones without two
-  /// corners.
+  /// for lines that end at their last contact, for degenerate ones without two corners,
+  /// and for kinds without a corner (EEEE, whose lines are irrational, FEE, pierce).
   [[nodiscard]] std::optional<FreeSegment> line(const Skeleton& skeleton,
                                                 const SkeletonNode& node) const;
 

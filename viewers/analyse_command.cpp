@@ -12,6 +12,7 @@
 #include "viewers/builtin_scene.h"
 #include "viewers/command_line.h"
 #include "viewers/drawing.h"
+#include "viewers/eee_surface.h"
 #include "viewers/output_file.h"
 #include "viewers/page.h"
 #include "viewers/palette.h"
@@ -72,7 +73,46 @@ std::vector<int> busiest(const Skeleton& skeleton, const Key& key) {
 /// Of the vertex, the edge, the pair of inner objects that has most arcs.
 struct Highlights {
   std::vector<int> vertex, edge, pair;
+  /// The EEE arc with the most to see, from one EEEE line to another if any does that.
+  std::optional<int> eee;
+  /// The longest EEEE line.
+  std::optional<int> eeee;
 };
+
+std::optional<int> showiest_eee(const Scene& scene, const Skeleton& skeleton,
+                                const std::vector<char>& inner) {
+  std::optional<int> best;
+  std::pair<int, double> best_score{-1, -1};
+  for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
+    const EeeArc& arc = skeleton.eee_arcs[i];
+    if (!std::ranges::all_of(
+            arc.edges, [&](int e) { return inner[scene.edges()[e].object] != 0; })) {
+      continue;
+    }
+    const int both = std::ranges::all_of(arc.nodes, [&](std::uint32_t n) {
+      return skeleton.nodes[n].kind == NodeKind::EEEE;
+    });
+    const std::pair score{both, spanned_volume(scene, arc)};
+    if (score <= best_score) continue;
+    best_score = score;
+    best = static_cast<int>(i);
+  }
+  return best;
+}
+
+std::optional<int> longest_eeee(const Skeleton& skeleton) {
+  std::optional<int> best;
+  double longest = 0;
+  for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
+    const SkeletonNode& node = skeleton.nodes[i];
+    if (node.kind != NodeKind::EEEE) continue;
+    const double length = (node.segment[1] - node.segment[0]).norm();
+    if (length <= longest) continue;
+    longest = length;
+    best = static_cast<int>(i);
+  }
+  return best;
+}
 
 Highlights find_highlights(const Scene& scene, const Skeleton& skeleton) {
   std::vector<char> inner = envelope_objects(scene);
@@ -100,6 +140,8 @@ Highlights find_highlights(const Scene& scene, const Skeleton& skeleton) {
       return Key(std::min(u, v) * objects + std::max(u, v));
     });
   }
+  found.eee = showiest_eee(scene, skeleton, inner);
+  found.eeee = longest_eeee(skeleton);
   return found;
 }
 
@@ -156,6 +198,71 @@ std::string pair_picture(const SceneView& view, const Canvas& canvas, const Scen
   return encode_png(canvas.picture(marked.drawing));
 }
 
+std::string object_name(const Scene& scene, int edge) {
+  return html_escaped(scene.objects()[scene.edges()[edge].object].name);
+}
+
+constexpr Colour kGeneratorEdge{0.95F, 0.35F, 0.05F};
+
+PagePicture eee_picture(const SceneView& view, const Canvas& canvas, const Scene& scene,
+                        const Skeleton& skeleton, int id) {
+  const EeeArc& arc = skeleton.eee_arcs[id];
+  SceneView marked = view;
+  add_eee_arc(marked.drawing, scene, arc, 0.45F);
+  const Colour colour = colour_of_kind(kind_name(arc));
+  const EeeSurface surface(scene, arc);
+  constexpr int kLines = 24;
+  for (int i = 1; i < kLines; ++i) {
+    const double s =
+        arc.range[0] + (arc.range[1] - arc.range[0]) * static_cast<double>(i) / kLines;
+    marked.drawing.strokes.push_back({surface.line(s), colour, 1.1F, 0.75F, 0.12F});
+  }
+  for (const int e : arc.edges) {
+    add_edge(marked.drawing, scene, e, kGeneratorEdge, 4.0F, 0.35F);
+  }
+  const std::vector<int> ends(arc.nodes.begin(), arc.nodes.end());
+  add_nodes(marked.drawing, skeleton, ends, 1, 2.6F);
+  const auto kind = [&](int end) { return kind_name(skeleton.nodes[arc.nodes[end]]); };
+  return {
+      "eee.png", encode_png(canvas.picture(marked.drawing)), "An EEE surface",
+      fmt::format(
+          "All lines that touch three edges (orange) of {}, {} and {}, in this order, "
+          "with nothing between: one EEE line set, a piece of a ruled quadric, drawn "
+          "between its outer edges. It ends in the lines of kind {} and {}. An eye "
+          "that crosses this curved surface beyond the edges sees them part or join.",
+          object_name(scene, arc.edges[0]), object_name(scene, arc.edges[1]),
+          object_name(scene, arc.edges[2]), kind(0), kind(1))};
+}
+
+PagePicture eeee_picture(const SceneView& view, const Canvas& canvas, const Scene& scene,
+                         const Skeleton& skeleton, int id) {
+  const SkeletonNode& node = skeleton.nodes[id];
+  SceneView marked = view;
+  std::string names;
+  for (const Generator& g : skeleton.generators(node)) {
+    if (g.kind != GeneratorKind::Edge || g.id < 0) continue;
+    add_edge(marked.drawing, scene, g.id, kGeneratorEdge, 4.0F, 0.35F);
+    if (!names.empty()) names += ", ";
+    names += object_name(scene, g.id);
+  }
+  std::size_t arcs = 0;
+  for (const EeeArc& arc : skeleton.eee_arcs) {
+    if (std::ranges::find(arc.nodes, static_cast<std::uint32_t>(id)) == arc.nodes.end()) {
+      continue;
+    }
+    add_eee_arc(marked.drawing, scene, arc, 0.3F);
+    ++arcs;
+  }
+  marked.drawing.strokes.push_back(
+      {node.segment, colour_of_kind(kind_name(node)), 3.2F, 1, 0.5F});
+  return {
+      "eeee.png", encode_png(canvas.picture(marked.drawing)), "An EEEE line",
+      fmt::format("The line that touches four edges (orange) of {}, in this order: no "
+                  "small move keeps all four contacts. {} EEE line sets end in it and "
+                  "are drawn as surfaces.",
+                  names, arcs)};
+}
+
 std::vector<PagePicture> draw_pictures(const Scene& scene, const SkeletonLines& lines,
                                        const Skeleton& skeleton,
                                        const Highlights& highlights,
@@ -202,12 +309,18 @@ std::vector<PagePicture> draw_pictures(const Scene& scene, const SkeletonLines& 
         {"pair.png", pair_picture(view, canvas, scene, skeleton, highlights.pair),
          "Between two objects",
          fmt::format(
-             "All {} arcs between {} and {}, each the triangle between its vertex "
+             "All {} EV arcs between {} and {}, each the triangle between its vertex "
              "and its part of the edge, with the lines at their ends. {}",
              highlights.pair.size(),
              html_escaped(scene.objects()[object_of_vertex(scene, one.vertex)].name),
              html_escaped(scene.objects()[scene.edges()[one.edge].object].name),
              "The same pair: <code>sightline skeleton --between A B</code>.")});
+  }
+  if (highlights.eee) {
+    pictures.push_back(eee_picture(view, canvas, scene, skeleton, *highlights.eee));
+  }
+  if (highlights.eeee) {
+    pictures.push_back(eeee_picture(view, canvas, scene, skeleton, *highlights.eeee));
   }
   SceneView overview = view;
   const std::vector<int> nodes = evenly_spread(skeleton.nodes.size(), kDrawnNodes);
@@ -231,13 +344,30 @@ Json options_json(const AnalyseOptions& options) {
   return j;
 }
 
+Json missing_json(const Skeleton& skeleton, bool interrupted) {
+  Json missing = Json::array();
+  const auto add = [&](std::size_t done, std::size_t asked, const char* what) {
+    if (done == asked) return;
+    missing.push_back(fmt::format(
+        "{}: {} of {} were not computed ({:.1f} %)",
+        interrupted ? "Interrupted" : "The budget ended first",
+        fmt::format(fmt::runtime(what), asked - done), asked,
+        100.0 * static_cast<double>(asked - done) / static_cast<double>(asked)));
+  };
+  add(skeleton.vertices_done, skeleton.vertices_asked, "the EV arcs of {}");
+  add(skeleton.edges_done, skeleton.edges_asked, "the EEE arcs of {}");
+  return missing;
+}
+
 void print_summary(const Json& report, const fs::path& folder) {
   const Json& s = report["skeleton"];
   std::cout << fmt::format(
-      "{}: {} EV arcs ({} within one object){}\n  nodes:",
+      "{}: {} EV arcs ({} within one object), {} EEE arcs ({}){}\n  nodes:",
       report["scene"]["file"].get<std::string>(),
       s["arcs"]["EV"].get<std::int64_t>() + s["arcs"]["EV_self"].get<std::int64_t>(),
       s["arcs"]["EV_self"].get<std::int64_t>(),
+      s["arcs"]["EEE"].get<std::int64_t>() + s["arcs"]["EEE_self"].get<std::int64_t>(),
+      s["arcs"]["EEE_self"].get<std::int64_t>(),
       report["complete"].get<bool>() ? "" : ", INCOMPLETE");
   for (const auto& [kind, count] : s["nodes"].items()) {
     if (count.is_number() && count != 0) {
@@ -289,11 +419,11 @@ ExitStatus run(const AnalyseOptions& options) {
   const StageCounts before = meter.predicates();
   Skeleton skeleton;
   {
-    Progress progress("EV skeleton");
+    Progress progress("skeleton");
     request.progress = progress.callback();
-    skeleton = build_ev_skeleton(scene, request);
+    skeleton = build_skeleton(scene, request);
   }
-  log.done("EV skeleton");
+  log.done("visibility skeleton");
   const std::size_t analysis_memory = peak_memory_bytes();
 
   // 3. Files.
@@ -325,23 +455,17 @@ ExitStatus run(const AnalyseOptions& options) {
   report["options"] = options_json(options);
   report["info"] = info_json(scene, defects);
   report["skeleton"] = {{"events", "solid"},
-                        {"kinds", Json::array({"EV"})},
+                        {"kinds", Json::array({"EV", "EEE"})},
                         {"nodes", node_counts(skeleton)},
                         {"arcs", arc_counts(skeleton)},
                         {"complete", skeleton.complete},
                         {"vertices_done", skeleton.vertices_done},
                         {"vertices_asked", skeleton.vertices_asked},
+                        {"edges_done", skeleton.edges_done},
+                        {"edges_asked", skeleton.edges_asked},
                         {"predicates", stage_counts(skeleton.predicates)}};
   report["stages"] = log.stages();
-  report["missing"] = Json::array();
-  if (!skeleton.complete) {
-    report["missing"].push_back(fmt::format(
-        "{}: the EV arcs of {} of {} vertices were not computed ({:.1f} %)",
-        interruption.token().stop_requested() ? "Interrupted" : "The budget ended first",
-        skeleton.vertices_asked - skeleton.vertices_done, skeleton.vertices_asked,
-        100.0 * static_cast<double>(skeleton.vertices_asked - skeleton.vertices_done) /
-            static_cast<double>(std::max<std::size_t>(1, skeleton.vertices_asked))));
-  }
+  report["missing"] = missing_json(skeleton, interruption.token().stop_requested());
   files.insert(files.begin(), "report.json");
   if (options.scene.empty()) files.emplace_back(kBuiltinSceneName);
   report["files"] = files;

@@ -2,9 +2,11 @@
 
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <set>
 
 #include "viewers/drawing.h"
+#include "viewers/far_ends.h"
 #include "viewers/version.h"
 
 namespace sightline::viewers {
@@ -46,6 +48,7 @@ Json vertex_json(const Scene& scene, int id) {
 }
 
 Json edge_json(const Scene& scene, int id) {
+  if (id < 0) return {{"type", "edge"}, {"id", id}};  // a flat side: no edge of the scene
   const Edge& edge = scene.edges()[id];
   return {
       {"type", "edge"},
@@ -183,10 +186,15 @@ Json info_json(const Scene& scene, const std::vector<Defect>& defects) {
 }
 
 Json node_counts(const Skeleton& skeleton) {
-  Json counts{{"VV", 0},       {"VEE", 0},      {"EVE", 0},
-              {"FvE", 0},      {"VV_self", 0},  {"VEE_self", 0},
-              {"EVE_self", 0}, {"FvE_self", 0}, {"degenerate", 0}};
-  Json end{{"VV", 0}, {"VEE", 0}, {"EVE", 0}, {"FvE", 0}};
+  Json counts, end;
+  for (const char* kind : {"VV", "VEE", "EVE", "EEEE", "FvE", "FEE"}) {
+    counts[kind] = 0;
+    end[kind] = 0;
+  }
+  for (const char* kind : {"VV", "VEE", "EVE", "EEEE", "FvE", "FEE"}) {
+    counts[std::string(kind) + "_self"] = 0;
+  }
+  counts["degenerate"] = 0;
   for (const SkeletonNode& node : skeleton.nodes) {
     Json& count = (node.end ? end : counts)[kind_name(node)];
     count = count.is_null() ? 1 : count.get<std::int64_t>() + 1;
@@ -196,22 +204,27 @@ Json node_counts(const Skeleton& skeleton) {
 }
 
 Json arc_counts(const Skeleton& skeleton) {
-  std::int64_t self = 0;
-  for (const SkeletonArc& arc : skeleton.arcs) self += arc.self ? 1 : 0;
-  return {{"EV", static_cast<std::int64_t>(skeleton.arcs.size()) - self},
-          {"EV_self", self}};
+  const auto self = [](const auto& arcs) {
+    return std::ranges::count_if(arcs, [](const auto& arc) { return arc.self; });
+  };
+  const std::int64_t ev_self = self(skeleton.arcs), eee_self = self(skeleton.eee_arcs);
+  return {{"EV", static_cast<std::int64_t>(skeleton.arcs.size()) - ev_self},
+          {"EEE", static_cast<std::int64_t>(skeleton.eee_arcs.size()) - eee_self},
+          {"EV_self", ev_self},
+          {"EEE_self", eee_self}};
 }
 
 Json node_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
   const SkeletonNode& node = skeleton.nodes[id];
   Json j{{"id", id}, {"kind", kind_name(node)}};
   if (node.end) j["end"] = true;
+  if (node.kind == NodeKind::EEEE) j["second"] = node.second;
   Json generators = Json::array();
   for (const Generator& g : skeleton.generators(node)) {
     generators.push_back(generator_json(scene, g));
   }
   j["generators"] = std::move(generators);
-  j["line"] = points_json(node.segment);
+  j["line"] = points_json(segment_of(scene, skeleton, node));
   return j;
 }
 
@@ -221,6 +234,17 @@ Json arc_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
           {"kind", kind_name(arc)},
           {"vertex", vertex_json(scene, arc.vertex)},
           {"edge", edge_json(scene, arc.edge)},
+          {"range", {arc.range[0], arc.range[1]}},
+          {"nodes", {arc.nodes[0], arc.nodes[1]}}};
+}
+
+Json eee_arc_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
+  const EeeArc& arc = skeleton.eee_arcs[id];
+  Json edges = Json::array();
+  for (const int e : arc.edges) edges.push_back(edge_json(scene, e));
+  return {{"id", skeleton.arcs.size() + id},
+          {"kind", kind_name(arc)},
+          {"edges", std::move(edges)},
           {"range", {arc.range[0], arc.range[1]}},
           {"nodes", {arc.nodes[0], arc.nodes[1]}}};
 }

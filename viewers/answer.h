@@ -46,7 +46,7 @@ struct Cost {
 /// What `sightline info` says about a scene, common keys left out.
 [[nodiscard]] Json info_json(const Scene& scene, const std::vector<Defect>& defects);
 
-/// Nodes and arcs by kind.
+/// Nodes and arcs by kind; kinds that every scene may have are there with 0.
 [[nodiscard]] Json node_counts(const Skeleton& skeleton);
 [[nodiscard]] Json arc_counts(const Skeleton& skeleton);
 
@@ -55,6 +55,9 @@ struct Cost {
                              std::size_t node);
 [[nodiscard]] Json arc_json(const Scene& scene, const Skeleton& skeleton,
                             std::size_t arc);
+/// The same of an EEE arc; its "id" counts on from the EV arcs.
+[[nodiscard]] Json eee_arc_json(const Scene& scene, const Skeleton& skeleton,
+                                std::size_t arc);
 
 StageCounts operator+(const StageCounts& a, const StageCounts& b);
 StageCounts operator-(const StageCounts& a, const StageCounts& b);

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "viewers/eee_surface.h"
 #include "viewers/palette.h"
 
 namespace sightline::viewers {
@@ -307,6 +308,24 @@ void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
   }
 }
 
+void add_eee_arc(Drawing& drawing, const Scene& scene, const EeeArc& arc, float opacity) {
+  const Colour colour = colour_of_kind(kind_name(arc));
+  const std::vector<std::array<Point, 2>> rungs = rungs_of(scene, arc);
+  for (std::size_t i = 1; i < rungs.size(); ++i) {
+    const auto& [p0, q0] = rungs[i - 1];
+    const auto& [p1, q1] = rungs[i];
+    drawing.veils.push_back({{p0, q0, p1}, colour, opacity});
+    drawing.veils.push_back({{q0, q1, p1}, colour, opacity});
+  }
+}
+
+void add_edge(Drawing& drawing, const Scene& scene, int edge, const Colour& colour,
+              float width, float hidden_opacity) {
+  const auto& ends = scene.edges()[edge].points;
+  drawing.strokes.push_back(
+      {{scene.point(ends[0]), scene.point(ends[1])}, colour, width, 1, hidden_opacity});
+}
+
 RuledStrip ruled_strip(const Scene& scene, const SkeletonLines& lines,
                        const Skeleton& skeleton, int arc, int count) {
   const SkeletonArc& a = skeleton.arcs[arc];
@@ -389,6 +408,8 @@ void add_box(Drawing& drawing, const std::array<Point, 2>& box, const Colour& co
 
 std::string kind_name(const SkeletonArc& arc) { return arc.self ? "EV_self" : "EV"; }
 
+std::string kind_name(const EeeArc& arc) { return arc.self ? "EEE_self" : "EEE"; }
+
 std::string kind_name(const SkeletonNode& node) {
   std::string name;
   switch (node.kind) {
@@ -403,6 +424,12 @@ std::string kind_name(const SkeletonNode& node) {
       break;
     case NodeKind::FvE:
       name = "FvE";
+      break;
+    case NodeKind::EEEE:
+      name = "EEEE";
+      break;
+    case NodeKind::FEE:
+      name = "FEE";
       break;
     case NodeKind::Saddle:
       name = "saddle";

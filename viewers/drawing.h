@@ -49,6 +49,13 @@ struct SceneView {
 void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
               std::span<const int> arcs, float opacity);
 
+/// The surface of an EEE arc between its outer edges, to kEeeDeviation.
+void add_eee_arc(Drawing& drawing, const Scene& scene, const EeeArc& arc, float opacity);
+
+/// The whole edge, above everything that hides it by `hidden_opacity`.
+void add_edge(Drawing& drawing, const Scene& scene, int edge, const Colour& colour,
+              float width, float hidden_opacity);
+
 /// An arc's lines from far end to far end: `rungs` are those lines in order along the
 /// edge.  Neighbouring rungs that end on different faces are not joined.
 struct RuledStrip {
@@ -73,8 +80,10 @@ void add_nodes(Drawing& drawing, const Skeleton& skeleton, std::span<const int> 
 /// A box's twelve edges, to show a region of interest.
 void add_box(Drawing& drawing, const std::array<Point, 2>& box, const Colour& colour);
 
-/// "EV", "EV_self"; "VV", "VEE", "FvE_self", ...: the names of CONTRACT.md.
+/// "EV", "EV_self"; "EEE", "EEE_self"; "VV", "VEE", "FvE_self", ...: the names of
+/// CONTRACT.md.
 [[nodiscard]] std::string kind_name(const SkeletonArc& arc);
+[[nodiscard]] std::string kind_name(const EeeArc& arc);
 [[nodiscard]] std::string kind_name(const SkeletonNode& node);
 
 /// At most `limit` of the numbers 0 to size-1, evenly spread, always the same.

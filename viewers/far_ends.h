@@ -26,9 +26,20 @@ struct FarEnds {
 [[nodiscard]] FarEnds far_ends(const Scene& scene, const SkeletonLines& lines,
                                const SkeletonArc& arc, double s);
 
+/// Along the line of an EEE arc through the point of its first edge at parameter s, which
+/// must lie inside the range; nullopt where rounding leaves no such line.
+[[nodiscard]] std::optional<FarEnds> far_ends(const Scene& scene,
+                                              const SkeletonLines& lines,
+                                              const EeeArc& arc, double s);
+
 /// Along a node's line; nullopt where SkeletonLines gives none.
 [[nodiscard]] std::optional<FarEnds> far_ends(const Scene& scene,
                                               const SkeletonLines& lines,
+                                              const Skeleton& skeleton,
+                                              const SkeletonNode& node);
+
+/// The node's segment, from its first generator to its last.
+[[nodiscard]] std::array<Point, 2> segment_of(const Scene& scene,
                                               const Skeleton& skeleton,
                                               const SkeletonNode& node);
 

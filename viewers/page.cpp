@@ -83,10 +83,14 @@ const char* meaning(const std::string& kind) {
   static const std::map<std::string, const char*> kMeanings{
       {"EV", "lines through a vertex of one object and an edge of another"},
       {"EV_self", "vertex and edge of one object that is not convex"},
+      {"EEE", "lines through an edge each of three objects"},
+      {"EEE_self", "three edges, two of them of one object"},
       {"VV", "two vertices"},
       {"VEE", "a vertex, then two edges"},
       {"EVE", "an edge, a vertex, an edge"},
       {"FvE", "along a face through its vertex to an edge: support begins or ends"},
+      {"EEEE", "four edges"},
+      {"FEE", "across a face in its plane, to two edges: support begins or ends"},
       {"saddle", "a corner that is not convex, along two of its edges"},
       {"pierce", "where an edge enters a face of an overlapping solid"},
       {"degenerate", "more contacts than four degrees of freedom need"}};
@@ -316,8 +320,10 @@ std::string base64(const std::string& bytes) {
 
 std::string report_page(const Json& report, const std::vector<PagePicture>& pictures) {
   const Json& skeleton = report["skeleton"];
-  std::int64_t arcs = 0, nodes = 0;
-  for (const auto& [kind, n] : skeleton["arcs"].items()) arcs += n.get<std::int64_t>();
+  std::int64_t ev = 0, eee = 0, nodes = 0;
+  for (const auto& [kind, n] : skeleton["arcs"].items()) {
+    (kind.starts_with("EEE") ? eee : ev) += n.get<std::int64_t>();
+  }
   const Json& by_kind = skeleton["nodes"];
   for (const Json& counts : {by_kind, by_kind.value("end", Json::object())}) {
     for (const auto& [kind, n] : counts.items()) {
@@ -329,13 +335,15 @@ std::string report_page(const Json& report, const std::vector<PagePicture>& pict
       "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
       "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n"
       "<title>Sightline: {}</title>\n<style>{}</style></head>\n<body><main>\n"
-      "<h1>Sightline: {}</h1>\n<p class=soft>The exact EV skeleton, solid mode. Version "
+      "<h1>Sightline: {}</h1>\n<p class=soft>The exact visibility skeleton, solid mode. "
+      "Version "
       "{}, {} arithmetic.</p>\n",
       scene, kStyle, scene, report["version"].get<std::string>(),
       report["options"]["precision"].get<std::string>());
   html += missing_section(report);
   html += "<div class=cards>\n";
-  html += card(grouped(arcs), "EV line sets (arcs)");
+  html += card(grouped(ev), "EV line sets (arcs)");
+  html += card(grouped(eee), "EEE line sets (arcs)");
   html += card(grouped(nodes), "extremal lines (nodes)");
   html += card(grouped(report["scene"]["faces"].get<std::int64_t>()), "faces");
   html += card(seconds_text(report["seconds"].get<double>()), "in all");

@@ -16,10 +16,10 @@ Colour colour_of_kind(std::string_view kind) {
       {"EV_self", {0.42F, 0.56F, 0.66F}},    {"EV", {0.16F, 0.47F, 0.85F}},
       {"VV", {0.84F, 0.15F, 0.24F}},         {"VEE", {0.95F, 0.55F, 0.05F}},
       {"EVE", {0.10F, 0.60F, 0.36F}},        {"FvE", {0.52F, 0.28F, 0.74F}},
-      {"saddle", {0.10F, 0.62F, 0.66F}},     {"pierce", {0.62F, 0.40F, 0.24F}},
-      {"degenerate", {0.80F, 0.22F, 0.62F}}, {"EEEE", {0.84F, 0.15F, 0.24F}},
-      {"EEE", {0.10F, 0.62F, 0.66F}},        {"in_plane", {0.52F, 0.28F, 0.74F}},
-      {"portal", {0.55F, 0.57F, 0.62F}},
+      {"saddle", {0.35F, 0.66F, 0.25F}},     {"pierce", {0.62F, 0.40F, 0.24F}},
+      {"degenerate", {0.35F, 0.35F, 0.38F}}, {"EEEE", {0.90F, 0.10F, 0.55F}},
+      {"EEE", {0.10F, 0.62F, 0.66F}},        {"FEE", {0.74F, 0.45F, 0.90F}},
+      {"in_plane", {0.52F, 0.28F, 0.74F}},   {"portal", {0.55F, 0.57F, 0.62F}},
   };
   for (const auto& [name, colour] : kColours) {
     if (kind == name) return colour;

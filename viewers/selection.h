@@ -12,15 +12,15 @@ namespace sightline::viewers {
 
 /// Which arcs are wanted; all when both are empty.
 struct Selection {
-  /// Vertex on one group and edge on the other.
+  /// EV: vertex on one group and edge on the other; EEE: outer edges one on each.
   std::optional<std::array<std::string, 2>> between;
-  /// Vertex or edge on this group.
+  /// EV: vertex or edge on this group; EEE: any of the three edges.
   std::optional<std::string> through;
 };
 
-/// The asked part of the skeleton, in the order of the whole one: its arcs, the nodes at
-/// their ends, and the other nodes that touch the groups in the same way.  Throws
-/// InvalidInput for unknown groups.
+/// The asked part of the skeleton, of the kinds in the request: its arcs in the order of
+/// the whole one, the nodes at their ends, and those where two of its EV arcs line up
+/// through a corner.  Nodes are numbered anew.  Throws InvalidInput for unknown groups.
 [[nodiscard]] Skeleton build_selected(const Scene& scene, const SkeletonRequest& request,
                                       const Selection& selection);
 

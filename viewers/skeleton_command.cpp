@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "linespace/mesh_io.h"
@@ -16,7 +17,7 @@ namespace {
 
 struct SkeletonOptions : CommonOptions {
   std::string events = "solid";
-  std::vector<std::string> kinds{"EV"};
+  std::vector<std::string> kinds{"EV", "EEE"};
   std::vector<std::string> between;
   std::string through;
   double budget = std::numeric_limits<double>::infinity();
@@ -31,9 +32,9 @@ void check(const SkeletonOptions& options) {
     throw UsageError("--events polygon is not available in this version; use solid");
   }
   for (const std::string& kind : options.kinds) {
-    if (kind != "EV") {
+    if (kind != "EV" && kind != "EEE") {
       throw UsageError(fmt::format(
-          "--kinds: '{}' is not available in this version; available: EV", kind));
+          "--kinds: '{}' is not available in this version; available: EV, EEE", kind));
     }
   }
   if (!options.between.empty() && !options.through.empty()) {
@@ -47,6 +48,8 @@ SkeletonRequest request_of(const SkeletonOptions& options) {
   request.threads = options.threads;
   request.budget_seconds = options.budget;
   request.region = region_box(options.region);
+  request.ev = std::ranges::find(options.kinds, "EV") != options.kinds.end();
+  request.eee = std::ranges::find(options.kinds, "EEE") != options.kinds.end();
   return request;
 }
 
@@ -69,7 +72,7 @@ Json options_json(const SkeletonOptions& options) {
 }
 
 void print_summary(const Scene& scene, const Skeleton& skeleton, const Json& answer) {
-  std::cout << fmt::format("{}: EV skeleton, solid mode{}\n", scene.soup().source,
+  std::cout << fmt::format("{}: visibility skeleton, solid mode{}\n", scene.soup().source,
                            skeleton.complete ? "" : ", INCOMPLETE");
   for (const char* what : {"arcs", "nodes"}) {
     std::cout << fmt::format("  {}:", what);
@@ -82,9 +85,11 @@ void print_summary(const Scene& scene, const Skeleton& skeleton, const Json& ans
   }
   const Json& p = answer["predicates"];
   std::cout << fmt::format(
-      "  vertices done: {} of {}\n  {:.3f} s, {:.0f} MiB, predicates: {} double, {} "
-      "interval, {} exact\n",
-      skeleton.vertices_done, skeleton.vertices_asked, answer["seconds"].get<double>(),
+      "  vertices done: {} of {}, edges: {} of {}\n  {:.3f} s, {:.0f} MiB, predicates: "
+      "{} "
+      "double, {} interval, {} exact\n",
+      skeleton.vertices_done, skeleton.vertices_asked, skeleton.edges_done,
+      skeleton.edges_asked, answer["seconds"].get<double>(),
       answer["peak_memory_bytes"].get<double>() / 1048576,
       p["double"].get<std::uint64_t>(), p["interval"].get<std::uint64_t>(),
       p["exact"].get<std::uint64_t>());
@@ -103,7 +108,7 @@ ExitStatus run(const SkeletonOptions& options) {
   request.stop = interruption.token();
   Skeleton skeleton;
   {
-    Progress progress("EV skeleton");
+    Progress progress("skeleton");
     request.progress = progress.callback();
     skeleton = build_selected(scene, request, selection_of(options));
   }
@@ -114,6 +119,8 @@ ExitStatus run(const SkeletonOptions& options) {
   answer["arcs"] = arc_counts(skeleton);
   answer["vertices_done"] = skeleton.vertices_done;
   answer["vertices_asked"] = skeleton.vertices_asked;
+  answer["edges_done"] = skeleton.edges_done;
+  answer["edges_asked"] = skeleton.edges_asked;
 
   std::optional<SkeletonLines> lines;
   if (options.list || options.extend) lines.emplace(scene);
@@ -151,7 +158,7 @@ Command add_skeleton_command(CLI::App& app) {
   auto options = std::make_shared<SkeletonOptions>();
   CLI::App* command = app.add_subcommand(
       "skeleton",
-      "the exact EV skeleton: critical line sets and extremal stabbing lines");
+      "the exact visibility skeleton: critical line sets and extremal stabbing lines");
   add_scene_argument(*command, *options);
   command
       ->add_option("--events", options->events,
@@ -159,27 +166,32 @@ Command add_skeleton_command(CLI::App& app) {
       ->type_name("solid")
       ->check(CLI::IsMember({"solid", "polygon"}).description(""));
   command
-      ->add_option("--kinds", options->kinds,
-                   "kinds of critical line sets, separated by commas (default EV)")
-      ->type_name("EV")
+      ->add_option(
+          "--kinds", options->kinds,
+          "kinds of critical line sets, separated by commas: EV, through a vertex "
+          "and an edge, EEE, through three edges (default EV,EEE)")
+      ->type_name("EV,EEE")
       ->delimiter(',');
   command
-      ->add_option("--between", options->between,
-                   "only arcs with the vertex on group A and the edge on group B or the "
-                   "other way round; a group is a name or #i-j, faces i to j from 0")
+      ->add_option(
+          "--between", options->between,
+          "only EV arcs with the vertex on group A and the edge on group B or the "
+          "other way round, and EEE arcs with the outer edges one on each; a "
+          "group is a name or #i-j, faces i to j from 0")
       ->type_name("A B")
       ->expected(2);
   command
       ->add_option("--through", options->through,
-                   "only arcs with the vertex or the edge on this group")
+                   "only arcs with the vertex or one of the edges on this group")
       ->type_name("GROUP");
   add_region_option(*command, options->region);
   add_budget_option(*command, options->budget);
   command->add_flag("--list", options->list,
                     "add every node and arc to the JSON answer: generators, line, "
                     "contacts, free segment and what ends it");
-  command->add_flag("--extend", options->extend,
-                    "with --vtk: draw arcs out to the ends of their free segments too");
+  command->add_flag(
+      "--extend", options->extend,
+      "with --vtk: draw EV arcs out to the ends of their free segments too");
   command
       ->add_option("-o,--output", options->output,
                    "save the skeleton as JSON; `sightline view FILE` shows it")

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "viewers/drawing.h"
+#include "viewers/eee_surface.h"
 #include "viewers/far_ends.h"
 
 namespace sightline::viewers {
@@ -63,6 +64,30 @@ void add_far_ends(Json& element, const Scene& scene, const std::optional<FarEnds
                              {"ends", ends_json(ends->faces)}};
 }
 
+/// The line at the middle of the arc's range, and what lies along it.
+void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
+              const SkeletonArc& arc) {
+  const double middle = 0.5 * (arc.range[0] + arc.range[1]);
+  j["line"] = points_json(
+      {scene.point(arc.vertex), point_on_edge(scene, scene.edges()[arc.edge], middle)});
+  add_far_ends(j, scene, far_ends(scene, lines, arc, middle));
+  Json pieces = Json::array();
+  for (const SkeletonLines::Piece& piece : lines.pieces(arc)) {
+    pieces.push_back(
+        {{"range", piece.range},
+         {"ends", ends_json({source_polygons(scene, piece.line.from_faces),
+                             source_polygons(scene, piece.line.to_faces)})}});
+  }
+  j["pieces"] = std::move(pieces);
+}
+
+void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
+              const EeeArc& arc) {
+  const double middle = 0.5 * (arc.range[0] + arc.range[1]);
+  j["line"] = points_json(EeeSurface(scene, arc).line(middle));
+  add_far_ends(j, scene, far_ends(scene, lines, arc, middle));
+}
+
 Generator generator_from(const Json& j) {
   const std::string type = j.at("type").get<std::string>();
   const auto kind = type == "vertex" ? GeneratorKind::Vertex
@@ -76,13 +101,24 @@ Point point_from(const Json& j) {
 }
 
 NodeKind kind_from(const std::string& name) {
-  for (const NodeKind kind : {NodeKind::VV, NodeKind::VEE, NodeKind::EVE, NodeKind::FvE,
-                              NodeKind::Saddle, NodeKind::Pierce, NodeKind::Degenerate}) {
+  for (const NodeKind kind :
+       {NodeKind::VV, NodeKind::VEE, NodeKind::EVE, NodeKind::FvE, NodeKind::EEEE,
+        NodeKind::FEE, NodeKind::Saddle, NodeKind::Pierce, NodeKind::Degenerate}) {
     SkeletonNode node{};
     node.kind = kind;
     if (kind_name(node) == name.substr(0, name.find("_self"))) return kind;
   }
   throw InvalidInput("unknown kind of node " + name);
+}
+
+/// What arcs of all kinds have.
+template <typename Arc>
+void read_arc(const Json& j, Arc& arc) {
+  arc.self = j.at("kind").get<std::string>().ends_with("_self");
+  for (const int i : {0, 1}) {
+    arc.range[i] = j.at("range").at(i).get<double>();
+    arc.nodes[i] = j.at("nodes").at(i).get<std::uint32_t>();
+  }
 }
 
 StoredSkeleton skeleton_from(const Json& j) {
@@ -96,24 +132,30 @@ StoredSkeleton skeleton_from(const Json& j) {
     node.kind = kind_from(name);
     node.self = name.ends_with("_self");
     node.end = n.value("end", false);
+    node.second = n.value("second", false);
     node.first_generator = static_cast<std::uint32_t>(skeleton.generator_pool.size());
     for (const Json& g : n.at("generators")) {
       skeleton.generator_pool.push_back(generator_from(g));
     }
-    node.generator_count = static_cast<std::uint16_t>(n.at("generators").size());
+    node.generator_count = static_cast<std::uint32_t>(n.at("generators").size());
     node.segment = {point_from(n.at("line").at(0)), point_from(n.at("line").at(1))};
     skeleton.nodes.push_back(node);
   }
   for (const Json& a : j.at("list").at("arcs")) {
-    SkeletonArc arc{};
-    arc.vertex = a.at("vertex").at("id").get<std::int32_t>();
-    arc.edge = a.at("edge").at("id").get<std::int32_t>();
-    arc.self = a.at("kind").get<std::string>().ends_with("_self");
-    for (const int i : {0, 1}) {
-      arc.range[i] = a.at("range").at(i).get<double>();
-      arc.nodes[i] = a.at("nodes").at(i).get<std::uint32_t>();
+    if (a.contains("edges")) {
+      EeeArc arc{};
+      for (const int i : {0, 1, 2}) {
+        arc.edges[i] = a.at("edges").at(i).at("id").get<std::int32_t>();
+      }
+      read_arc(a, arc);
+      skeleton.eee_arcs.push_back(arc);
+    } else {
+      SkeletonArc arc{};
+      arc.vertex = a.at("vertex").at("id").get<std::int32_t>();
+      arc.edge = a.at("edge").at("id").get<std::int32_t>();
+      read_arc(a, arc);
+      skeleton.arcs.push_back(arc);
     }
-    skeleton.arcs.push_back(arc);
   }
   return stored;
 }
@@ -133,24 +175,20 @@ void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& sc
     stream << (i == 0 ? "\n   " : ",\n   ") << node.dump();
   }
   stream << "\n  ],\n  \"arcs\": [";
+  const char* separator = "\n   ";
+  const auto add_arc = [&](const Json& arc) {
+    stream << separator << arc.dump();
+    separator = ",\n   ";
+  };
   for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
     Json arc = arc_json(scene, skeleton, i);
-    if (lines != nullptr) {
-      const SkeletonArc& a = skeleton.arcs[i];
-      const double middle = 0.5 * (a.range[0] + a.range[1]);
-      arc["line"] = points_json(
-          {scene.point(a.vertex), point_on_edge(scene, scene.edges()[a.edge], middle)});
-      add_far_ends(arc, scene, far_ends(scene, *lines, a, middle));
-      Json pieces = Json::array();
-      for (const SkeletonLines::Piece& piece : lines->pieces(a)) {
-        pieces.push_back(
-            {{"range", piece.range},
-             {"ends", ends_json({source_polygons(scene, piece.line.from_faces),
-                                 source_polygons(scene, piece.line.to_faces)})}});
-      }
-      arc["pieces"] = std::move(pieces);
-    }
-    stream << (i == 0 ? "\n   " : ",\n   ") << arc.dump();
+    if (lines != nullptr) add_line(arc, scene, *lines, skeleton.arcs[i]);
+    add_arc(arc);
+  }
+  for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
+    Json arc = eee_arc_json(scene, skeleton, i);
+    if (lines != nullptr) add_line(arc, scene, *lines, skeleton.eee_arcs[i]);
+    add_arc(arc);
   }
   stream << "\n  ]\n }\n}\n";
 }
@@ -180,11 +218,19 @@ void check_fits(const StoredSkeleton& stored, const Scene& scene) {
                                                              : scene.facets().size();
     require(below(g.id, size));
   }
+  const auto require_nodes = [&](const auto& arc) {
+    for (const std::uint32_t n : arc.nodes) {
+      require(below(n, stored.skeleton.nodes.size()));
+    }
+  };
   for (const SkeletonArc& arc : stored.skeleton.arcs) {
     require(below(arc.vertex, scene.points().size()));
     require(below(arc.edge, scene.edges().size()));
-    require(below(arc.nodes[0], stored.skeleton.nodes.size()));
-    require(below(arc.nodes[1], stored.skeleton.nodes.size()));
+    require_nodes(arc);
+  }
+  for (const EeeArc& arc : stored.skeleton.eee_arcs) {
+    for (const int edge : arc.edges) require(below(edge, scene.edges().size()));
+    require_nodes(arc);
   }
 }
 

@@ -72,6 +72,12 @@ void write_picture(const ViewCommandOptions& options, const Shown& shown) {
     const std::vector<int> arcs = evenly_spread(skeleton.arcs.size(), 1500);
     add_arcs(view.drawing, *shown.scene, skeleton, arcs,
              static_cast<float>(std::clamp(8 / (arcs.size() + 1.0), 0.004, 0.2)));
+    const std::vector<int> eee = evenly_spread(skeleton.eee_arcs.size(), 1500);
+    const auto opacity =
+        static_cast<float>(std::clamp(8 / (eee.size() + 1.0), 0.004, 0.2));
+    for (const int i : eee) {
+      add_eee_arc(view.drawing, shown.scene, skeleton.eee_arcs[i], opacity);
+    }
     add_nodes(view.drawing, skeleton, evenly_spread(skeleton.nodes.size(), 4000), 0.4F,
               1.2F);
   }

@@ -25,13 +25,14 @@
 #include <cmath>
 #include <map>
 
+#include "viewers/eee_surface.h"
 #include "viewers/output_file.h"
 #include "viewers/palette.h"
 
 namespace sightline::viewers {
 namespace {
 
-/// Polygons or lines with arrays of one tuple a cell, in the making.
+/// Polygons, lines or strips with arrays of one tuple a cell, in the making.
 class Cells {
  public:
   Cells() {
@@ -50,6 +51,15 @@ class Cells {
   }
   void add_polygon(const std::vector<vtkIdType>& ids, const Colour& colour) {
     polygons_->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
+    add_colour(colour);
+  }
+  /// The triangles between neighbouring segments, as one cell.
+  void add_strip(const std::vector<std::array<Point, 2>>& rungs, const Colour& colour) {
+    strips_->InsertNextCell(static_cast<int>(2 * rungs.size()));
+    for (const auto& [p, q] : rungs) {
+      strips_->InsertCellPoint(add_point(p));
+      strips_->InsertCellPoint(add_point(q));
+    }
     add_colour(colour);
   }
   void add_line(const Point& a, const Point& b, const Colour& colour) {
@@ -82,6 +92,7 @@ class Cells {
     data->SetPoints(points_);
     data->SetPolys(polygons_);
     data->SetLines(lines_);
+    data->SetStrips(strips_);
     for (const auto& [name, array] : integers_) data->GetCellData()->AddArray(array);
     for (const auto& [name, array] : reals_) data->GetCellData()->AddArray(array);
     for (const auto& [name, array] : texts_) data->GetCellData()->AddArray(array);
@@ -104,7 +115,7 @@ class Cells {
   }
 
   vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> polygons_, lines_;
+  vtkNew<vtkCellArray> polygons_, lines_, strips_;
   vtkNew<vtkUnsignedCharArray> colours_;
   std::map<std::string, vtkSmartPointer<vtkIntArray>> integers_;
   std::map<std::string, vtkSmartPointer<vtkDoubleArray>> reals_;
@@ -180,6 +191,24 @@ void add_arc_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton
   }
 }
 
+void add_eee_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton) {
+  for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
+    const EeeArc& arc = skeleton.eee_arcs[i];
+    const std::string kind = kind_name(arc);
+    Cells& cells = blocks["arcs_" + kind];
+    cells.add_strip(rungs_of(scene, arc), colour_of_kind(kind));
+    cells.value("arc", {static_cast<int>(skeleton.arcs.size() + i)});
+    cells.value("edges", {arc.edges[0], arc.edges[1], arc.edges[2]});
+    cells.value("objects",
+                {scene.edges()[arc.edges[0]].object, scene.edges()[arc.edges[1]].object,
+                 scene.edges()[arc.edges[2]].object});
+    cells.value("range", {arc.range[0], arc.range[1]});
+    cells.value("nodes",
+                {static_cast<int>(arc.nodes[0]), static_cast<int>(arc.nodes[1])});
+    cells.value("kind", kind);
+  }
+}
+
 void add_strip_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton,
                       const std::vector<RuledStrip>& strips) {
   for (const RuledStrip& strip : strips) {
@@ -220,8 +249,18 @@ void add_node_blocks(Blocks& blocks, const Skeleton& skeleton) {
     cells.value("generators", generator_text(skeleton, node));
     cells.value("self", {node.self ? 1 : 0});
     cells.value("end", {node.end ? 1 : 0});
+    if (node.kind == NodeKind::EEEE) cells.value("second", {node.second ? 1 : 0});
     cells.value("kind", kind);
   }
+}
+
+/// How far the strips may be from the surfaces they stand for.
+void add_deviation(vtkPolyData* data, const Scene& scene) {
+  vtkNew<vtkDoubleArray> deviation;
+  deviation->SetName("deviation");
+  deviation->InsertNextValue(kEeeDeviation *
+                             (scene.bounds()[1] - scene.bounds()[0]).norm());
+  data->GetFieldData()->AddArray(deviation);
 }
 
 void write_poly_data(const std::filesystem::path& path, vtkPolyData* data) {
@@ -296,7 +335,7 @@ void read_scene(VtkPicture& picture, vtkPolyData* data) {
 }
 
 void read_marks(VtkPicture& picture, vtkPolyData* data) {
-  // VTK numbers the cells of lines before those of polygons.
+  // VTK numbers the cells of lines before those of polygons, and these before strips.
   const vtkIdType lines = data->GetNumberOfLines();
   const auto line = vtk::TakeSmartPointer(data->GetLines()->NewIterator());
   for (line->GoToFirstCell(); !line->IsDoneWithTraversal(); line->GoToNextCell()) {
@@ -311,16 +350,29 @@ void read_marks(VtkPicture& picture, vtkPolyData* data) {
                                  0.08F});
     }
   }
+  const auto add_veil = [&](vtkIdType a, vtkIdType b, vtkIdType c, vtkIdType of) {
+    picture.veils.push_back({{point_of(data, a), point_of(data, b), point_of(data, c)},
+                             cell_colour(data, of),
+                             0.1F});
+  };
   const auto cell = vtk::TakeSmartPointer(data->GetPolys()->NewIterator());
   for (cell->GoToFirstCell(); !cell->IsDoneWithTraversal(); cell->GoToNextCell()) {
     vtkIdType count = 0;
     const vtkIdType* ids = nullptr;
     cell->GetCurrentCell(count, ids);
     for (vtkIdType i = 2; i < count; ++i) {
-      picture.veils.push_back(
-          {{point_of(data, ids[0]), point_of(data, ids[i - 1]), point_of(data, ids[i])},
-           cell_colour(data, lines + cell->GetCurrentCellId()),
-           0.1F});
+      add_veil(ids[0], ids[i - 1], ids[i], lines + cell->GetCurrentCellId());
+    }
+  }
+  const vtkIdType polygons = data->GetNumberOfPolys();
+  const auto strip = vtk::TakeSmartPointer(data->GetStrips()->NewIterator());
+  for (strip->GoToFirstCell(); !strip->IsDoneWithTraversal(); strip->GoToNextCell()) {
+    vtkIdType count = 0;
+    const vtkIdType* ids = nullptr;
+    strip->GetCurrentCell(count, ids);
+    for (vtkIdType i = 2; i < count; ++i) {
+      add_veil(ids[i - 2], ids[i - 1], ids[i],
+               lines + polygons + strip->GetCurrentCellId());
     }
   }
 }
@@ -355,6 +407,7 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
   Blocks blocks;
   if (contents.skeleton != nullptr) {
     add_arc_blocks(blocks, scene, *contents.skeleton);
+    add_eee_blocks(blocks, scene, *contents.skeleton);
     add_node_blocks(blocks, *contents.skeleton);
     if (contents.strips != nullptr) {
       add_strip_blocks(blocks, scene, *contents.skeleton, *contents.strips);
@@ -362,7 +415,9 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
   }
   for (const auto& [name, cells] : blocks) {
     if (cells.empty()) continue;
-    write_poly_data(folder / (name + ".vtp"), cells.poly_data());
+    const vtkSmartPointer<vtkPolyData> data = cells.poly_data();
+    if (name.starts_with("arcs_EEE")) add_deviation(data, scene);
+    write_poly_data(folder / (name + ".vtp"), data);
     names.push_back(name);
   }
   write_whole(folder / "sightline.vtm", multi_block_text(names));

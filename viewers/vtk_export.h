@@ -25,16 +25,22 @@ struct VtkContents {
 ///   arcs_EV.vtp, arcs_EV_self.vtp
 ///               an arc is the triangle between its vertex and its part of the edge; arc,
 ///               vertex, edge, range, nodes, kind, colour
+///   arcs_EEE.vtp, arcs_EEE_self.vtp
+///               an arc is its lines between the outer edges as one triangle strip, at
+///               most kEeeDeviation of the scene's diagonal from the ruled surface; arc
+///               (counts on from the EV arcs), edges, objects, range, nodes, kind,
+///               colour; field array deviation (scene units)
 ///   strips_EV.vtp, ...
 ///               arcs as ruled strips from far end to far end; arc, side (0 before the
 ///               contacts, 1 behind them), far_polygon (-1 outside), colour
 ///   nodes_VV.vtp, nodes_VEE.vtp, ...
 ///               an extremal line's part between its outermost contacts; node,
-///               generators (text), self, end, kind, colour
+///               generators (text), self, end, kind, colour; of an EEEE also second
 ///   sightline.vtm
 ///               all of these as named blocks
-/// `colour` is an RGB array and the active scalars.  Each file is written whole or not at
-/// all.  Throws OutputError.
+/// A cell of an EEE arc takes some 100 bytes and 60 a line of its strip, in memory and in
+/// the file alike.  `colour` is an RGB array and the active scalars.  Each file is
+/// written whole or not at all.  Throws OutputError.
 std::vector<std::string> write_vtk(const std::filesystem::path& folder,
                                    const Scene& scene, const VtkContents& contents);
 
