@@ -957,7 +957,12 @@ int LineScan::Impl::add_position(Ring num, Ring den) {
     num = -num;
     den = -den;
   }
-  const double approx = CGAL::to_double(num) / CGAL::to_double(den);
+  // Out of the range of doubles the quotient would say nothing (a den that rounds to
+  // infinity would make it 0): NaN leaves every comparison to the exact numbers.
+  const double n = CGAL::to_double(num), d = CGAL::to_double(den);
+  const bool in_range = std::isfinite(n) && std::isfinite(d) && d > kUnderflow &&
+                        (std::abs(n) > kUnderflow || sign_of(num) == 0);
+  const double approx = in_range ? n / d : std::numeric_limits<double>::quiet_NaN();
   positions.push_back({std::move(num), std::move(den), approx, std::nullopt});
   return static_cast<int>(positions.size()) - 1;
 }
