@@ -7,6 +7,7 @@
 #include <iostream>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "linespace/mesh_io.h"
 #include "viewers/builtin_scene.h"
@@ -73,7 +74,8 @@ std::vector<int> busiest(const Skeleton& skeleton, const Key& key) {
 /// Of the vertex, the edge, the pair of inner objects that has most arcs.
 struct Highlights {
   std::vector<int> vertex, edge, pair;
-  /// The EEE arc with the most to see, from one EEEE line to another if any does that.
+  /// The EEE arc with the most to see: of inner objects and from one EEEE line to another
+  /// where there is such a one.
   std::optional<int> eee;
   /// The longest EEEE line.
   std::optional<int> eeee;
@@ -82,18 +84,16 @@ struct Highlights {
 std::optional<int> showiest_eee(const Scene& scene, const Skeleton& skeleton,
                                 const std::vector<char>& inner) {
   std::optional<int> best;
-  std::pair<int, double> best_score{-1, -1};
+  std::tuple<bool, bool, double> best_score;
   for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
     const EeeArc& arc = skeleton.eee_arcs[i];
-    if (!std::ranges::all_of(
-            arc.edges, [&](int e) { return inner[scene.edges()[e].object] != 0; })) {
-      continue;
-    }
-    const int both = std::ranges::all_of(arc.nodes, [&](std::uint32_t n) {
+    const bool all_inner = std::ranges::all_of(
+        arc.edges, [&](int e) { return inner[scene.edges()[e].object] != 0; });
+    const bool both_eeee = std::ranges::all_of(arc.nodes, [&](std::uint32_t n) {
       return skeleton.nodes[n].kind == NodeKind::EEEE;
     });
-    const std::pair score{both, spanned_volume(scene, arc)};
-    if (score <= best_score) continue;
+    const std::tuple score{all_inner, both_eeee, spanned_volume(scene, arc)};
+    if (best && score <= best_score) continue;
     best_score = score;
     best = static_cast<int>(i);
   }

@@ -181,7 +181,8 @@ TEST_F(Cli, BadUsageIsRefusedInOneLine) {
   expect_refused({"info", kRoom, "--threads", "-3"}, "--threads");
   expect_refused({"info", kRoom, "--precision", "float"}, "--precision");
   expect_refused({"skeleton", kRoom, "--events", "polygon"}, "polygon");
-  expect_refused({"skeleton", kRoom, "--kinds", "EV,EEE"}, "EEE");
+  expect_refused({"skeleton", kRoom, "--kinds", "EV,VV"},
+                 "'VV' is not available in this version; available: EV, EEE");
   expect_refused({"skeleton", kRoom, "--between", "crate", "nothing"}, "nothing");
   expect_refused({"skeleton", kRoom, "--through", "#100-200"}, "#100-200");
   expect_refused({"skeleton", kRoom, "--region", "0,0,0,1,1"}, "--region");
@@ -212,8 +213,9 @@ TEST_F(Cli, SkeletonCountsAndListAgree) {
   const json& arcs = j.at("list").at("arcs");
   const json& nodes = j.at("list").at("nodes");
   ASSERT_GT(arcs.size(), 10U);
-  EXPECT_EQ(j.at("arcs").at("EV").get<int>() + j.at("arcs").at("EV_self").get<int>(),
-            static_cast<int>(arcs.size()));
+  int sum = 0;
+  for (const auto& [kind, count] : j.at("arcs").items()) sum += count.get<int>();
+  EXPECT_EQ(sum, static_cast<int>(arcs.size()));
   std::map<std::string, int> counted;
   for (const json& node : nodes) {
     if (!node.contains("end")) ++counted[node.at("kind")];
@@ -223,15 +225,17 @@ TEST_F(Cli, SkeletonCountsAndListAgree) {
   for (const auto& [kind, count] : counted) EXPECT_EQ(j.at("nodes").at(kind), count);
   int with_far_ends = 0;
   for (const json& arc : arcs) {
-    const std::string v = arc.at("vertex").at("objects")[0];
-    const std::string e = arc.at("edge").at("objects")[0];
+    const bool eee = arc.at("kind") == "EEE";
+    const json& a = eee ? arc.at("edges")[0] : arc.at("vertex");
+    const json& b = eee ? arc.at("edges")[2] : arc.at("edge");
+    const std::string v = a.at("objects")[0], e = b.at("objects")[0];
     EXPECT_TRUE((v == "lamp_shade" && e == "tilted_box") ||
                 (v == "tilted_box" && e == "lamp_shade"));
     EXPECT_LT(arc.at("range")[0], arc.at("range")[1]);
     for (const json& n : arc.at("nodes")) EXPECT_LT(n.get<std::size_t>(), nodes.size());
     if (arc.at("free_segment").is_null()) continue;
     ++with_far_ends;
-    // Vertex and edge are among the contacts, which are in order.
+    // Both outer generators are among the contacts, which are in order.
     double last = -1e300;
     std::set<double> at;
     for (const json& contact : arc.at("contacts")) {
@@ -245,6 +249,93 @@ TEST_F(Cli, SkeletonCountsAndListAgree) {
     }
   }
   EXPECT_EQ(with_far_ends, static_cast<int>(arcs.size()));
+}
+
+TEST_F(Cli, SkeletonKinds) {
+  const json both = answer({"skeleton", kCornell});
+  const json ev = answer({"skeleton", kCornell, "--kinds", "EV"});
+  const json eee = answer({"skeleton", kCornell, "--kinds", "EEE"});
+  EXPECT_EQ(both.at("options").at("kinds"), json::parse(R"(["EV","EEE"])"));
+  for (const json& j : {both, ev, eee}) {
+    for (const char* kind : {"EV", "EEE", "EV_self", "EEE_self"}) {
+      EXPECT_TRUE(j.at("arcs").at(kind).is_number_unsigned() ||
+                  j.at("arcs").at(kind).is_number_integer());
+    }
+    EXPECT_EQ(j.at("arcs").size(), 4U);
+    for (const char* kind : {"VV", "VEE", "EVE", "EEEE", "FvE", "FEE"}) {
+      EXPECT_TRUE(j.at("nodes").at(kind).is_number_integer()) << kind;
+      EXPECT_TRUE(j.at("nodes").at(std::string(kind) + "_self").is_number_integer());
+      EXPECT_TRUE(j.at("nodes").at("end").at(kind).is_number_integer()) << kind;
+    }
+    EXPECT_TRUE(j.at("nodes").at("degenerate").is_number_integer());
+  }
+  for (const char* kind : {"EV", "EV_self"}) {
+    EXPECT_EQ(both.at("arcs").at(kind), ev.at("arcs").at(kind));
+    EXPECT_EQ(eee.at("arcs").at(kind), 0);
+  }
+  for (const char* kind : {"EEE", "EEE_self"}) {
+    EXPECT_EQ(both.at("arcs").at(kind), eee.at("arcs").at(kind));
+    EXPECT_EQ(ev.at("arcs").at(kind), 0);
+  }
+  EXPECT_GT(eee.at("arcs").at("EEE"), 100);
+  EXPECT_GT(eee.at("nodes").at("EEEE"), 0);
+  EXPECT_GT(eee.at("nodes").at("FEE"), 0);
+  EXPECT_EQ(ev.at("nodes").at("EEEE"), 0);
+  EXPECT_EQ(eee.at("nodes").at("VV"), 0);
+  EXPECT_EQ(eee.at("vertices_asked"), 0);
+  EXPECT_EQ(ev.at("edges_asked"), 0);
+  EXPECT_EQ(eee.at("edges_done"), eee.at("edges_asked"));
+}
+
+TEST_F(Cli, ListOfEeeArcs) {
+  const json j = answer({"skeleton", kCornell, "--kinds", "EEE", "--list"});
+  const json& nodes = j.at("list").at("nodes");
+  const auto at = [](const json& p) {
+    return sightline::Point(p[0].get<double>(), p[1].get<double>(), p[2].get<double>());
+  };
+  int middle_touched = 0;
+  ASSERT_EQ(j.at("list").at("arcs").size(), j.at("arcs").at("EEE"));
+  for (const json& arc : j.at("list").at("arcs")) {
+    EXPECT_EQ(arc.at("kind"), "EEE");
+    ASSERT_EQ(arc.at("edges").size(), 3U);
+    EXPECT_LT(arc.at("range")[0], arc.at("range")[1]);
+    for (const json& n : arc.at("nodes")) EXPECT_LT(n.get<std::size_t>(), nodes.size());
+    // The line's ends lie on the outer edges.
+    for (const int k : {0, 1}) {
+      const json& edge = arc.at("edges")[2 * k];
+      const sightline::Point from = at(edge.at("from")), to = at(edge.at("to"));
+      const sightline::Point x = at(arc.at("line")[k]);
+      EXPECT_NEAR((x - from).norm() + (to - x).norm(), (to - from).norm(), 1e-9);
+    }
+    ASSERT_FALSE(arc.at("free_segment").is_null());
+    for (const json& contact : arc.at("contacts")) {
+      const double from = contact.at("from");
+      middle_touched += from > 0 && from < 1 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(middle_touched, static_cast<int>(j.at("list").at("arcs").size()) - 1);
+  int eeee = 0;
+  for (const json& node : nodes) {
+    EXPECT_EQ(node.contains("second"), node.at("kind") == "EEEE");
+    if (node.at("kind") == "EEEE") {
+      ++eeee;
+      EXPECT_EQ(node.at("generators").size(), 4U);
+      EXPECT_FALSE(node.contains("contacts"));  // irrational
+      continue;
+    }
+    // What has contacts has them where the first and last generator are.
+    if (node.at("free_segment").is_null()) continue;
+    for (const double position : {0.0, 1.0}) {
+      EXPECT_TRUE(std::ranges::any_of(node.at("contacts"), [&](const json& contact) {
+        return contact.at("from") <= position && contact.at("to") >= position;
+      })) << node;
+    }
+    const json& first = node.at("generators")[0];
+    if (first.at("type") == "vertex") {
+      EXPECT_LT((at(first.at("at")) - at(node.at("line")[0])).norm(), 1e-9) << node;
+    }
+  }
+  EXPECT_EQ(eeee, j.at("nodes").at("EEEE"));
 }
 
 TEST_F(Cli, ThroughIsTheUnionOfItsPairs) {
@@ -268,13 +359,16 @@ TEST_F(Cli, SavedSkeletonCanBeViewed) {
       run({"view", saved.string(), "--png", png.string(), "--size", "400,300"}).status,
       0);
   EXPECT_EQ(contents(png).substr(1, 3), "PNG");
-  EXPECT_FALSE(json::parse(contents(saved)).at("list").at("arcs").empty());
+  const json kept = json::parse(contents(saved));
+  EXPECT_FALSE(kept.at("list").at("arcs").empty());
+  EXPECT_EQ(kept.at("list").at("arcs").back().at("kind"), "EEE");
 }
 
 TEST_F(Cli, BudgetGivesAPartialAnswer) {
   const json j = answer({"skeleton", kRoom, "--budget", "1e-6"}, 3);
   EXPECT_EQ(j.at("complete"), false);
   EXPECT_LT(j.at("vertices_done"), j.at("vertices_asked"));
+  EXPECT_LT(j.at("edges_done"), j.at("edges_asked"));
 }
 
 /// True once the process blocks SIGINT, which it does when it is ready for one.
@@ -306,6 +400,9 @@ TEST_F(Cli, AnalyseFillsAFolder) {
   EXPECT_EQ(json::parse(contents(folder / "report.json")), j);
   EXPECT_EQ(j.at("skeleton").at("arcs"), answer({"skeleton", kCornell}).at("arcs"));
   EXPECT_TRUE(j.at("missing").empty());
+  for (const char* picture : {"eee.png", "eeee.png"}) {
+    EXPECT_TRUE(fs::exists(folder / picture)) << picture;
+  }
   for (const json& file : j.at("files")) {
     EXPECT_GT(fs::file_size(folder / file.get<std::string>()), 0U) << file;
   }
@@ -339,7 +436,7 @@ TEST_F(Cli, AnalyseFillsAFolder) {
 TEST_F(Cli, AnalyseSaysWhatIsMissing) {
   const fs::path folder = folder_ / "report";
   const json j = answer({"analyse", "-o", folder.string(), "--budget", "1e-6"}, 3);
-  EXPECT_EQ(j.at("missing").size(), 1U);
+  EXPECT_EQ(j.at("missing").size(), 2U);  // EV and EEE
   EXPECT_NE(contents(folder / "index.html").find("not complete"), std::string::npos);
   // The built-in scene is the sample file.
   EXPECT_EQ(contents(folder / "room.obj"), contents(kRoom));

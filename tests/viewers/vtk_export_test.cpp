@@ -4,6 +4,12 @@
 
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <vtkCellData.h>
+#include <vtkFieldData.h>
+#include <vtkNew.h>
+#include <vtkPolyData.h>
+#include <vtkSmartPointer.h>
+#include <vtkXMLPolyDataReader.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,8 +17,10 @@
 
 #include "linespace/mesh_io.h"
 #include "viewers/drawing.h"
+#include "viewers/eee_surface.h"
 #include "viewers/output_file.h"
 #include "viewers/palette.h"
+#include "viewers/skeleton_file.h"
 
 namespace sightline::viewers {
 namespace {
@@ -23,7 +31,7 @@ class VtkExport : public testing::Test {
  protected:
   VtkExport()
       : scene_(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/cornell.obj")),
-        skeleton_(build_ev_skeleton(scene_)) {
+        skeleton_(build_skeleton(scene_)) {
     std::string pattern = (fs::temp_directory_path() / "sightline-vtk-XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
   }
@@ -52,7 +60,12 @@ TEST_F(VtkExport, EveryArcAndNodeIsThereInItsColour) {
       write_vtk(folder_, scene_, {&skeleton_, nullptr});
   for (const std::string& file : files) EXPECT_TRUE(fs::exists(folder_ / file)) << file;
   const VtkPicture picture = read_vtk(folder_ / "sightline.vtm");
-  EXPECT_EQ(picture.veils.size(), skeleton_.arcs.size());
+  std::size_t triangles = skeleton_.arcs.size();
+  for (const EeeArc& arc : skeleton_.eee_arcs) {
+    triangles += 2 * (rungs_of(scene_, arc).size() - 1);
+  }
+  EXPECT_GT(triangles, skeleton_.arcs.size() + 2 * skeleton_.eee_arcs.size());
+  EXPECT_EQ(picture.veils.size(), triangles);
   EXPECT_EQ(picture.strokes.size(), skeleton_.nodes.size());
   const VtkPicture vv = read_vtk(folder_ / "nodes_VV.vtp");
   ASSERT_FALSE(vv.strokes.empty());
@@ -62,6 +75,86 @@ TEST_F(VtkExport, EveryArcAndNodeIsThereInItsColour) {
     expected += kind_name(node) == "VV" ? 1 : 0;
   }
   EXPECT_EQ(vv.strokes.size(), expected);
+}
+
+TEST_F(VtkExport, EeeBlocksHaveTheirArrays) {
+  write_vtk(folder_, scene_, {&skeleton_, nullptr});
+  const auto read = [&](const char* name) {
+    vtkNew<vtkXMLPolyDataReader> reader;
+    reader->SetFileName((folder_ / name).c_str());
+    reader->Update();
+    return vtkSmartPointer<vtkPolyData>(reader->GetOutput());
+  };
+  const auto arcs = read("arcs_EEE.vtp");
+  ASSERT_EQ(arcs->GetNumberOfCells(), static_cast<int>(skeleton_.eee_arcs.size()));
+  EXPECT_EQ(arcs->GetNumberOfStrips(), arcs->GetNumberOfCells());
+  vtkCellData* data = arcs->GetCellData();
+  for (const auto& [name, components] : {std::pair("arc", 1),
+                                         {"edges", 3},
+                                         {"objects", 3},
+                                         {"range", 2},
+                                         {"nodes", 2},
+                                         {"kind", 1},
+                                         {"colour", 3}}) {
+    ASSERT_NE(data->GetAbstractArray(name), nullptr) << name;
+    EXPECT_EQ(data->GetAbstractArray(name)->GetNumberOfComponents(), components) << name;
+  }
+  ASSERT_NE(arcs->GetFieldData()->GetArray("deviation"), nullptr);
+  for (const vtkIdType cell : {vtkIdType{0}, arcs->GetNumberOfCells() - 1}) {
+    const EeeArc& arc = skeleton_.eee_arcs[cell];
+    EXPECT_EQ(data->GetArray("arc")->GetTuple1(cell),
+              static_cast<double>(skeleton_.arcs.size() + cell));
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(data->GetArray("edges")->GetComponent(cell, k), arc.edges[k]);
+    }
+    for (int k = 0; k < 2; ++k) {
+      EXPECT_EQ(data->GetArray("range")->GetComponent(cell, k), arc.range[k]);
+      EXPECT_EQ(data->GetArray("nodes")->GetComponent(cell, k), arc.nodes[k]);
+    }
+  }
+  const auto eeee = read("nodes_EEEE.vtp");
+  EXPECT_EQ(eeee->GetNumberOfLines(),
+            std::ranges::count_if(skeleton_.nodes, [](const SkeletonNode& n) {
+              return kind_name(n) == "EEEE";
+            }));
+  ASSERT_GT(eeee->GetNumberOfLines(), 0);
+  for (const char* name : {"node", "generators", "second", "kind", "colour"}) {
+    EXPECT_NE(eeee->GetCellData()->GetAbstractArray(name), nullptr) << name;
+  }
+  EXPECT_GT(read("nodes_FEE.vtp")->GetNumberOfLines(), 0);
+}
+
+TEST_F(VtkExport, SavedSkeletonIsReadBackWhole) {
+  {
+    OutputFile file(folder_ / "skeleton.json");
+    const Json head{{"scene", {{"file", "cornell.obj"}}}, {"complete", true}};
+    write_skeleton_json(file.stream(), head, scene_, skeleton_, nullptr);
+    file.commit();
+  }
+  const StoredSkeleton stored = read_skeleton_json((folder_ / "skeleton.json").string());
+  check_fits(stored, scene_);
+  EXPECT_EQ(stored.scene_file, "cornell.obj");
+  const Skeleton& back = stored.skeleton;
+  ASSERT_EQ(back.nodes.size(), skeleton_.nodes.size());
+  for (std::size_t i = 0; i < back.nodes.size(); ++i) {
+    const SkeletonNode &a = back.nodes[i], &b = skeleton_.nodes[i];
+    EXPECT_EQ(std::tuple(a.kind, a.self, a.end, a.second),
+              std::tuple(b.kind, b.self, b.end, b.second));
+    EXPECT_TRUE(std::ranges::equal(back.generators(a), skeleton_.generators(b)));
+    EXPECT_EQ(a.segment, segment_of(scene_, skeleton_, b));
+  }
+  ASSERT_EQ(back.arcs.size(), skeleton_.arcs.size());
+  for (std::size_t i = 0; i < back.arcs.size(); ++i) {
+    const SkeletonArc &a = back.arcs[i], &b = skeleton_.arcs[i];
+    EXPECT_EQ(std::tuple(a.vertex, a.edge, a.self, a.range, a.nodes),
+              std::tuple(b.vertex, b.edge, b.self, b.range, b.nodes));
+  }
+  ASSERT_EQ(back.eee_arcs.size(), skeleton_.eee_arcs.size());
+  for (std::size_t i = 0; i < back.eee_arcs.size(); ++i) {
+    const EeeArc &a = back.eee_arcs[i], &b = skeleton_.eee_arcs[i];
+    EXPECT_EQ(std::tuple(a.edges, a.self, a.range, a.nodes),
+              std::tuple(b.edges, b.self, b.range, b.nodes));
+  }
 }
 
 TEST_F(VtkExport, StripsReachTheFacesThatEndThem) {

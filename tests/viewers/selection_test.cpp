@@ -1,0 +1,216 @@
+// A part of the skeleton, built on its own, is that part of the whole.
+
+#include "viewers/selection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "linespace/mesh_io.h"
+#include "tests/support/generators.h"
+#include "viewers/drawing.h"
+
+namespace sightline::viewers {
+namespace {
+
+// Arcs and nodes as values: numbers of nodes differ between a part and the whole.
+using NodeValue = std::pair<std::string, std::vector<Generator>>;
+using ArcValue = std::tuple<std::vector<int>, double, double, NodeValue, NodeValue>;
+
+NodeValue value_of(const Skeleton& skeleton, const SkeletonNode& node) {
+  const auto generators = skeleton.generators(node);
+  std::vector<Generator> forward(generators.begin(), generators.end());
+  std::vector<Generator> backward(generators.rbegin(), generators.rend());
+  return {kind_name(node) + (node.end ? " end" : "") + (node.second ? " second" : ""),
+          std::min(forward, backward)};
+}
+
+template <typename Arc>
+ArcValue value_of(const Skeleton& skeleton, const Arc& arc, std::vector<int> generators) {
+  return {std::move(generators), arc.range[0], arc.range[1],
+          value_of(skeleton, skeleton.nodes[arc.nodes[0]]),
+          value_of(skeleton, skeleton.nodes[arc.nodes[1]])};
+}
+
+struct Values {
+  std::vector<ArcValue> ev, eee;  // in order
+  std::multiset<NodeValue> nodes;
+};
+
+using KeepEv = std::function<bool(int vertex, int edge)>;
+using KeepEee = std::function<bool(const EeeArc&)>;
+
+/// The arcs kept, the nodes at their ends, and the EVE nodes both of whose EV arcs are.
+Values values_of(const Skeleton& skeleton, bool with_ev, const KeepEv& keep_ev,
+                 const KeepEee& keep_eee) {
+  Values values;
+  std::set<std::uint32_t> nodes;
+  for (const SkeletonArc& arc : skeleton.arcs) {
+    if (!keep_ev(arc.vertex, arc.edge)) continue;
+    values.ev.push_back(value_of(skeleton, arc, {arc.vertex, arc.edge}));
+    nodes.insert(arc.nodes.begin(), arc.nodes.end());
+  }
+  for (const EeeArc& arc : skeleton.eee_arcs) {
+    if (!keep_eee(arc)) continue;
+    values.eee.push_back(value_of(skeleton, arc, {arc.edges.begin(), arc.edges.end()}));
+    nodes.insert(arc.nodes.begin(), arc.nodes.end());
+  }
+  for (std::uint32_t n = 0; with_ev && n < skeleton.nodes.size(); ++n) {
+    if (skeleton.nodes[n].kind != NodeKind::EVE) continue;
+    const auto g = skeleton.generators(skeleton.nodes[n]);
+    if (keep_ev(g[1].id, g[0].id) && keep_ev(g[1].id, g[2].id)) nodes.insert(n);
+  }
+  for (const std::uint32_t n : nodes) {
+    values.nodes.insert(value_of(skeleton, skeleton.nodes[n]));
+  }
+  return values;
+}
+
+Values all_values(const Skeleton& skeleton) {
+  Values values = values_of(
+      skeleton, false, [](int, int) { return true; }, [](const EeeArc&) { return true; });
+  values.nodes.clear();
+  for (const SkeletonNode& node : skeleton.nodes) {
+    values.nodes.insert(value_of(skeleton, node));
+  }
+  return values;
+}
+
+enum class Nodes {
+  Equal,
+  /// Aligned scenes: further contacts along an EV node's line are looked for only where
+  /// the part itself is degenerate, so kinds may differ between the part and the whole.
+  AnyKind
+};
+
+/// What differs, in a few words; a whole skeleton would fill the screen.
+void expect_same(Values found, Values expected, Nodes nodes) {
+  if (nodes == Nodes::AnyKind) {
+    for (Values* values : {&found, &expected}) {
+      values->nodes.clear();
+      for (ArcValue& arc : values->ev) std::get<3>(arc) = std::get<4>(arc) = {};
+      for (ArcValue& arc : values->eee) std::get<3>(arc) = std::get<4>(arc) = {};
+    }
+  }
+  EXPECT_EQ(found.ev.size(), expected.ev.size());
+  EXPECT_EQ(found.eee.size(), expected.eee.size());
+  EXPECT_EQ(found.nodes.size(), expected.nodes.size());
+  EXPECT_TRUE(found.ev == expected.ev);
+  EXPECT_TRUE(found.eee == expected.eee);
+  EXPECT_TRUE(found.nodes == expected.nodes);
+}
+
+/// Objects by name, as the test's own notion of a group.
+struct Owner {
+  const Scene& scene;
+  std::string name;
+
+  [[nodiscard]] bool vertex(int p) const {
+    return std::ranges::any_of(scene.faces_at(p), [&](int f) {
+      return scene.objects()[scene.faces()[f].object].name == name;
+    });
+  }
+  [[nodiscard]] bool edge(int e) const {
+    return std::ranges::any_of(scene.edges()[e].sides, [&](const Edge::Side& side) {
+      return scene.objects()[scene.faces()[side.face].object].name == name;
+    });
+  }
+};
+
+void expect_parts_of_the_whole(const Scene& scene, const SkeletonRequest& request,
+                               const std::string& first, const std::string& second,
+                               Nodes nodes = Nodes::Equal) {
+  const Skeleton whole = build_skeleton(scene, request);
+  const Owner a{scene, first}, b{scene, second};
+  const auto between = [&](const auto& x, const auto& y) {
+    return (x(a) && y(b)) || (x(b) && y(a));
+  };
+  Selection selection;
+  selection.between = {first, second};
+  const Skeleton pair = build_selected(scene, request, selection);
+  expect_same(all_values(pair),
+              values_of(
+                  whole, request.ev,
+                  [&](int vertex, int edge) {
+                    return between([&](const Owner& o) { return o.vertex(vertex); },
+                                   [&](const Owner& o) { return o.edge(edge); });
+                  },
+                  [&](const EeeArc& arc) {
+                    return between([&](const Owner& o) { return o.edge(arc.edges[0]); },
+                                   [&](const Owner& o) { return o.edge(arc.edges[2]); });
+                  }),
+              nodes);
+  selection = {};
+  selection.through = first;
+  const Skeleton part = build_selected(scene, request, selection);
+  expect_same(all_values(part),
+              values_of(
+                  whole, request.ev,
+                  [&](int vertex, int edge) { return a.vertex(vertex) || a.edge(edge); },
+                  [&](const EeeArc& arc) {
+                    return std::ranges::any_of(arc.edges,
+                                               [&](int e) { return a.edge(e); });
+                  }),
+              nodes);
+  // No node is there twice.
+  for (const Skeleton* one : {&pair, &part}) {
+    std::set<NodeValue> seen;
+    for (const SkeletonNode& node : one->nodes) {
+      EXPECT_TRUE(seen.insert(value_of(*one, node)).second) << kind_name(node);
+    }
+  }
+  EXPECT_EQ(part.eee_arcs.empty(), !request.eee);
+  EXPECT_EQ(part.arcs.empty(), !request.ev);
+}
+
+TEST(Selection, PartsAreThoseOfTheWholeRoom) {
+  const Scene room(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj"));
+  for (const auto& [ev, eee] :
+       {std::pair(true, true), std::pair(true, false), std::pair(false, true)}) {
+    SkeletonRequest request;
+    request.ev = ev;
+    request.eee = eee;
+    SCOPED_TRACE(::testing::Message() << "EV " << ev << ", EEE " << eee);
+    const Nodes nodes = ev ? Nodes::AnyKind : Nodes::Equal;
+    expect_parts_of_the_whole(room, request, "lamp_shade", "tilted_box", nodes);
+    expect_parts_of_the_whole(room, request, "floor", "crate", nodes);
+  }
+}
+
+TEST(Selection, PartsAreThoseOfTheWholeAmongPolytopes) {
+  for (const std::uint64_t seed : {1, 2}) {
+    const Scene scene(testing::random_polytopes(seed, 10));
+    expect_parts_of_the_whole(scene, {}, scene.objects()[0].name,
+                              scene.objects()[5].name);
+  }
+}
+
+TEST(Selection, FaceRangesAreGroups) {
+  const Scene room(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj"));
+  Selection by_name, by_range;
+  by_name.through = "floor";
+  by_range.through = "#0-5";
+  expect_same(all_values(build_selected(room, {}, by_name)),
+              all_values(build_selected(room, {}, by_range)), Nodes::Equal);
+  by_name.through = "nothing";
+  EXPECT_THROW((void)build_selected(room, {}, by_name), InvalidInput);
+}
+
+TEST(Selection, KindsLeaveOutWhatWasNotAsked) {
+  const Scene room(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj"));
+  SkeletonRequest request;
+  request.ev = false;
+  const Skeleton eee = build_selected(room, request, {});
+  EXPECT_TRUE(eee.arcs.empty());
+  EXPECT_EQ(eee.vertices_asked, 0U);
+  std::set<std::uint32_t> ends;
+  for (const EeeArc& arc : eee.eee_arcs) ends.insert(arc.nodes.begin(), arc.nodes.end());
+  EXPECT_EQ(ends.size(), eee.nodes.size());
+  const Skeleton both = build_selected(room, {}, {});
+  EXPECT_EQ(all_values(eee).eee.size(), both.eee_arcs.size());
+}
+
+}  // namespace
+}  // namespace sightline::viewers
