@@ -7,7 +7,6 @@
 #include <iostream>
 #include <map>
 #include <set>
-#include <tuple>
 
 #include "linespace/mesh_io.h"
 #include "viewers/builtin_scene.h"
@@ -74,8 +73,8 @@ std::vector<int> busiest(const Skeleton& skeleton, const Key& key) {
 /// Of the vertex, the edge, the pair of inner objects that has most arcs.
 struct Highlights {
   std::vector<int> vertex, edge, pair;
-  /// The EEE arc with the most to see: of inner objects and from one EEEE line to another
-  /// where there is such a one.
+  /// The EEE arc with the most to see, of inner objects where there is one; those from
+  /// one EEEE line to another are favoured.
   std::optional<int> eee;
   /// The longest EEEE line.
   std::optional<int> eeee;
@@ -84,7 +83,7 @@ struct Highlights {
 std::optional<int> showiest_eee(const Scene& scene, const Skeleton& skeleton,
                                 const std::vector<char>& inner) {
   std::optional<int> best;
-  std::tuple<bool, bool, double> best_score;
+  std::pair<bool, double> best_score;
   for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
     const EeeArc& arc = skeleton.eee_arcs[i];
     const bool all_inner = std::ranges::all_of(
@@ -92,7 +91,8 @@ std::optional<int> showiest_eee(const Scene& scene, const Skeleton& skeleton,
     const bool both_eeee = std::ranges::all_of(arc.nodes, [&](std::uint32_t n) {
       return skeleton.nodes[n].kind == NodeKind::EEEE;
     });
-    const std::tuple score{all_inner, both_eeee, spanned_volume(scene, arc)};
+    // A smaller one that shows both its EEEE ends still tells more.
+    const std::pair score{all_inner, (both_eeee ? 8 : 1) * spanned_volume(scene, arc)};
     if (best && score <= best_score) continue;
     best_score = score;
     best = static_cast<int>(i);

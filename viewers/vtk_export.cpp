@@ -404,21 +404,28 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
   std::vector<std::string> names{"scene", "edges"};
   write_poly_data(folder / "scene.vtp", scene_cells(scene));
   write_poly_data(folder / "edges.vtp", edge_cells(scene));
-  Blocks blocks;
-  if (contents.skeleton != nullptr) {
-    add_arc_blocks(blocks, scene, *contents.skeleton);
-    add_eee_blocks(blocks, scene, *contents.skeleton);
-    add_node_blocks(blocks, *contents.skeleton);
-    if (contents.strips != nullptr) {
-      add_strip_blocks(blocks, scene, *contents.skeleton, *contents.strips);
+  // One group of blocks at a time is held in memory.
+  const auto write = [&](const auto& fill) {
+    Blocks blocks;
+    fill(blocks);
+    for (const auto& [name, cells] : blocks) {
+      if (cells.empty()) continue;
+      const vtkSmartPointer<vtkPolyData> data = cells.poly_data();
+      if (name.starts_with("arcs_EEE")) add_deviation(data, scene);
+      write_poly_data(folder / (name + ".vtp"), data);
+      names.push_back(name);
     }
-  }
-  for (const auto& [name, cells] : blocks) {
-    if (cells.empty()) continue;
-    const vtkSmartPointer<vtkPolyData> data = cells.poly_data();
-    if (name.starts_with("arcs_EEE")) add_deviation(data, scene);
-    write_poly_data(folder / (name + ".vtp"), data);
-    names.push_back(name);
+  };
+  if (contents.skeleton != nullptr) {
+    const Skeleton& skeleton = *contents.skeleton;
+    write([&](Blocks& blocks) { add_arc_blocks(blocks, scene, skeleton); });
+    write([&](Blocks& blocks) { add_eee_blocks(blocks, scene, skeleton); });
+    write([&](Blocks& blocks) { add_node_blocks(blocks, skeleton); });
+    if (contents.strips != nullptr) {
+      write([&](Blocks& blocks) {
+        add_strip_blocks(blocks, scene, skeleton, *contents.strips);
+      });
+    }
   }
   write_whole(folder / "sightline.vtm", multi_block_text(names));
   std::vector<std::string> files;
