@@ -53,6 +53,11 @@ class Cells {
     polygons_->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
     add_colour(colour);
   }
+  /// Room for so many strips with so many points in all.
+  void reserve(vtkIdType strips, vtkIdType points) {
+    points_->Allocate(points);
+    strips_->AllocateExact(strips, points);
+  }
   /// The triangles between neighbouring segments, as one cell.
   void add_strip(const std::vector<std::array<Point, 2>>& rungs, const Colour& colour) {
     strips_->InsertNextCell(static_cast<int>(2 * rungs.size()));
@@ -192,6 +197,14 @@ void add_arc_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton
 }
 
 void add_eee_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton) {
+  // Counted first: an array that grows takes up to three times its room.
+  std::map<std::string, std::pair<vtkIdType, vtkIdType>> sizes;
+  for (const EeeArc& arc : skeleton.eee_arcs) {
+    auto& [strips, points] = sizes["arcs_" + kind_name(arc)];
+    ++strips;
+    points += 2 * static_cast<vtkIdType>(rungs_of(scene, arc).size());
+  }
+  for (const auto& [name, size] : sizes) blocks[name].reserve(size.first, size.second);
   for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
     const EeeArc& arc = skeleton.eee_arcs[i];
     const std::string kind = kind_name(arc);
