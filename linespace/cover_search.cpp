@@ -20,7 +20,7 @@ constexpr double kDoubtful = 0x1p-36;
 // A proof is accepted as soon as it has a margin that rounding does not eat up.
 constexpr double kEnough = -0x1p-30;
 // From this many halvings on, proofs of second order are tried.
-constexpr int kSecondOrder = 4;
+constexpr int kSecondOrder = 8;
 // Exact proofs of second order with longer numbers than kLongNumbers bits wait for
 // kPatience halvings: they cost up to a second.
 constexpr std::size_t kLongNumbers = 128;
@@ -97,12 +97,13 @@ std::optional<Weights> exact_weights(Weights w) {
 
 class Search {
  public:
-  Search(SightSpace& space, const SearchTerms& terms) : space_(space), terms_(terms) {}
+  Search(SightSpace& space, const SearchTerms& terms)
+      : space_(space), terms_(terms), pool_(terms.pool) {
+    if (pool_.size() > kPool) pool_.resize(kPool);
+  }
 
   SearchResult run() {
-    const bool free =
-        !covered_by_one() && (sample() || (!terms_.samples_only && search()));
-    if (!free && terms_.samples_only) ++counts_.undecided;
+    const bool free = !covered_by_one() && search();
     SearchResult result;
     result.counts = counts_;
     result.outcome = free                    ? SearchOutcome::Free
@@ -124,9 +125,6 @@ class Search {
   using Game = MatrixGame<9>;
   using ExactGame = ExactMatrixGame<9>;
 
-  // ---- sampling
-  // ------------------------------------------------------------------------
-
   bool covered_by_one() {
     for (std::size_t b = 0; b < space_.blockers().size(); ++b) {
       if (space_.blockers()[b].count > 0) continue;
@@ -145,30 +143,6 @@ class Search {
       t = 1 - t;
     }
     return {(1 - s) - t, s, t};
-  }
-
-  // Tries random segments; what blocked the last ones is asked first.
-  bool sample() {
-    std::vector<int> order(space_.blockers().size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = static_cast<int>(i);
-    for (int n = 0; n < terms_.samples; ++n) {
-      const SightPoint s{random_weights(), random_weights()};
-      if (std::min(
-              {s.alpha[0], s.alpha[1], s.alpha[2], s.beta[0], s.beta[1], s.beta[2]}) <= 0)
-        continue;
-      ++counts_.samples;
-      bool blocked = false;
-      for (std::size_t i = 0; i < order.size() && !blocked; ++i) {
-        blocked = space_.blocks(space_.blockers()[order[i]], s.alpha, s.beta);
-        if (blocked) std::rotate(order.begin(), order.begin() + i, order.begin() + i + 1);
-      }
-      if (!blocked && confirmed(s)) return true;
-      for (std::size_t b = order.size(); b < space_.blockers().size(); ++b) {
-        order.insert(order.begin(), static_cast<int>(b));
-      }
-      if (pool_.size() < kPool) pool_.push_back(s);
-    }
-    return false;
   }
 
   bool confirmed(const SightPoint& s) {
@@ -669,6 +643,13 @@ class Search {
     }
     if (rows.empty()) return false;
     if (bounded_second_order_proof(d, rows)) return true;
+    // Long numbers are rarely tight: halving will do, and is cheaper.
+    const bool patient = d.halvings_from + d.halvings_to < kPatience;
+    if (patient && std::ranges::any_of(rows, [&](int r) {
+          return digits(rows_[r].form) > kLongNumbers;
+        })) {
+      return false;
+    }
     std::unordered_map<int, std::array<Rational, 9>> values;
     ExactSecondGame game;
     for (const int r : rows) {
@@ -680,10 +661,7 @@ class Search {
         return Rational(values[form][i] * int{sign_[form]});
       }));
     }
-    // Long numbers are rarely tight: halving will do, and is cheaper.
-    if (game.bits() > kLongNumbers && d.halvings_from + d.halvings_to < kPatience) {
-      return false;
-    }
+    if (patient && game.bits() > kLongNumbers) return false;
     ++counts_.exact_games;
     game.solve();
     if (game.positive()) return false;
@@ -691,11 +669,26 @@ class Search {
     return true;
   }
 
-  std::array<Rational, 9> exact_values(Domain& d, int form) {
+  const std::array<Rational, 9>& exact_values(int form) {
     auto [entry, is_new] = exact_.try_emplace(form);
     if (is_new) entry->second = space_.exact(form);
-    if (d.halvings_from + d.halvings_to == 0) return entry->second;
-    const std::array<Rational, 9>& whole = entry->second;
+    return entry->second;
+  }
+
+  // Of the largest numerator among the form's values.
+  std::size_t digits(int form) {
+    using Integer = boost::multiprecision::mpz_int;
+    std::size_t most = 0;
+    for (const Rational& x : exact_values(form)) {
+      const Integer size = abs(Integer(numerator(x)));
+      if (size != 0) most = std::max<std::size_t>(most, msb(size));
+    }
+    return most;
+  }
+
+  std::array<Rational, 9> exact_values(Domain& d, int form) {
+    const std::array<Rational, 9>& whole = exact_values(form);
+    if (d.halvings_from + d.halvings_to == 0) return whole;
     std::array<Rational, 9> half, out;
     for (int j = 0; j < 3; ++j) {
       for (int v = 0; v < 3; ++v) {

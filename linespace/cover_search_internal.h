@@ -73,10 +73,10 @@ struct Cover {
 
 struct SearchTerms {
   Precision precision = Precision::Exact;
-  /// Segments tried before the search proper.
-  int samples = 2048;
-  bool samples_only = false;
   std::uint64_t seed = 1;
+  /// Segments spread over the space, at most 64: a blocker that blocks more of them is
+  /// tried first.
+  std::vector<SightPoint> pool;
   bool keep_cover = false;
   /// Asked now and then; true ends the search.
   std::function<bool()> stop;

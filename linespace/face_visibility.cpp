@@ -64,11 +64,7 @@ FacePairAnswer decide_pair(const Scene& scene, const OccluderSet& faces, int a, 
     return face == a || face == b || in_one_plane(scene, a, face) ||
            in_one_plane(scene, b, face);
   });
-  pair.answer = decide(
-      fan(faces[a]), fan(faces[b]),
-      {[&](SightSpace& space) { source.start(space, recent); },
-       [&](SightSpace& space, const SightPoint& s) { return source.is_free(space, s); }},
-      request);
+  pair.answer = decide(fan(faces[a]), fan(faces[b]), {source, recent, {}}, request);
   pair.occluders = source.found();
   recent = pair.occluders;
   if (recent.size() > kRemembered)

@@ -19,6 +19,9 @@
 
 namespace sightline::internal {
 
+/// row -= factor * other, n numbers; they must not overlap.
+void subtract_multiple(double* row, const double* other, double factor, int n);
+
 /// In doubles: the outcome is a proposal, and the caller checks lambda.  Keeps its memory
 /// between games; not for sharing between threads.
 template <int Columns>
@@ -109,10 +112,8 @@ class MatrixGame {
       if (k == r) continue;
       const double factor = at(k, e);
       if (factor == 0) continue;
-      double* row = &at(k, 0);
-      const double* pivot_row = &at(r, 0);
-      for (int i = 0; i < stride_; ++i) row[i] -= factor * pivot_row[i];
-      row[e] = -factor * inverse;
+      subtract_multiple(&at(k, 0), &at(r, 0), factor, stride_);
+      at(k, e) = -factor * inverse;
       (k == Columns ? objective_ : bounds_[k]) -= factor * bounds_[r];
     }
     at(r, e) = inverse;

@@ -9,6 +9,8 @@ namespace {
 
 // Below this, looking at every box is cheaper than building a tree.
 constexpr std::size_t kManyPolygons = 256;
+// Up to this many, all are tried from the start.
+constexpr std::size_t kFewPolygons = 1024;
 
 double area_of(const Polygon& p) {
   Point normal = Point::Zero();
@@ -113,17 +115,27 @@ OccluderSource::OccluderSource(const OccluderSet& set, Numbers numbers,
                                std::function<bool(int)> skip)
     : set_(set), numbers_(numbers), skip_(std::move(skip)) {}
 
-void OccluderSource::start(SightSpace& space, std::span<const int> known) {
-  in_space_.assign(set_.polygons().size(), false);
-  const std::vector<int> found = found_;
-  for (const std::span<const int> list : {known, std::span<const int>(found)}) {
-    for (const int i : list) {
-      if (!in_space_[i] && !(skip_ && skip_(i))) add(space, i);
+std::vector<int> OccluderSource::start(std::span<const int> known) {
+  const std::size_t count = set_.polygons().size();
+  in_space_.assign(count, false);
+  std::vector<int> first;
+  if (count <= kFewPolygons) {
+    for (std::size_t i = 0; i < count; ++i) first.push_back(static_cast<int>(i));
+  } else {
+    std::vector<bool> listed(count, false);
+    for (const std::span<const int> list : {known, std::span<const int>(found_)}) {
+      for (const int i : list) {
+        if (!listed[i]) first.push_back(i);
+        listed[i] = true;
+      }
     }
   }
+  if (skip_) std::erase_if(first, skip_);
+  return first;
 }
 
 void OccluderSource::add(SightSpace& space, int i) {
+  if (in_space_[i]) return;
   in_space_[i] = true;
   const auto [entry, is_new] = number_.try_emplace(i, static_cast<int>(found_.size()));
   if (is_new) found_.push_back(i);
@@ -131,7 +143,7 @@ void OccluderSource::add(SightSpace& space, int i) {
   space.add(number, {number, set_[i]});
 }
 
-bool OccluderSource::is_free(SightSpace& space, const SightPoint& s) {
+int OccluderSource::find_blocker(SightSpace& space, const SightPoint& s) {
   std::vector<std::pair<double, int>> candidates;
   for (const int i : set_.near(space, s)) {
     if (!in_space_[i] && !(skip_ && skip_(i))) {
@@ -144,10 +156,10 @@ bool OccluderSource::is_free(SightSpace& space, const SightPoint& s) {
     const std::size_t before = space.blockers().size();
     add(space, i);
     for (std::size_t b = before; b < space.blockers().size(); ++b) {
-      if (space.blocks(space.blockers()[b], s.alpha, s.beta)) return false;
+      if (space.blocks(space.blockers()[b], s.alpha, s.beta)) return i;
     }
   }
-  return true;
+  return -1;
 }
 
 }  // namespace sightline::internal

@@ -39,17 +39,19 @@ class OccluderSource {
   /// skip(i): polygon i does not count.  May be null.
   OccluderSource(const OccluderSet& set, Numbers numbers, std::function<bool(int)> skip);
 
-  /// Adds what is known already: `known` first, then what other spaces found.
-  void start(SightSpace& space, std::span<const int> known = {});
-  /// True when no polygon of the set blocks the segment; otherwise one was added that
-  /// does.
-  bool is_free(SightSpace& space, const SightPoint& s);
+  /// Begins a space.  Returns the polygons to try first: all when they are few, otherwise
+  /// `known` and what other spaces found.
+  std::vector<int> start(std::span<const int> known);
+  /// Adds the polygon to the space, once.
+  void add(SightSpace& space, int i);
+  /// -1 when no polygon of the set that is not in the space yet blocks the segment;
+  /// otherwise one that does, and it was added.
+  int find_blocker(SightSpace& space, const SightPoint& s);
+  [[nodiscard]] const OccluderSet& set() const { return set_; }
   /// In order of their numbers AsFound.
   [[nodiscard]] const std::vector<int>& found() const { return found_; }
 
  private:
-  void add(SightSpace& space, int i);
-
   const OccluderSet& set_;
   Numbers numbers_;
   std::function<bool(int)> skip_;

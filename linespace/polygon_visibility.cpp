@@ -6,6 +6,7 @@
 #include "linespace/occluder_source_internal.h"
 #include "linespace/polygon_visibility_internal.h"
 #include "linespace/scene_internal.h"
+#include "linespace/segment_sampler_internal.h"
 
 namespace sightline {
 namespace internal {
@@ -125,29 +126,91 @@ std::vector<Triangle> fan(std::span<const Point> p) {
   return triangles;
 }
 
+namespace {
+
+/// One pair of triangles: samples, then the search.
+class PairSearch {
+ public:
+  PairSearch(const Triangle& a, const Triangle& b, const PairTerms& terms,
+             const VisibilityRequest& request)
+      : terms_(terms), request_(request), space_(a, b), sampler_(a, b, request.seed) {}
+
+  SearchResult decide(const std::function<bool()>& stop) {
+    for (const int i : terms_.source.start(terms_.known)) know(i);
+    const std::optional<SightPoint> sampled = sample();
+    SearchResult result;
+    if (sampled || request_.samples_only) {
+      result.outcome = sampled ? SearchOutcome::Free : SearchOutcome::Undecided;
+      result.segment = sampled;
+      result.counts.undecided = sampled ? 0 : 1;
+    } else {
+      for (const int i : sampler_.heavy()) terms_.source.add(space_, known_[i]);
+      SearchTerms terms{.precision = request_.precision,
+                        .seed = request_.seed,
+                        .pool = sampler_.first(),
+                        .keep_cover = request_.keep_cover,
+                        .stop = stop,
+                        .confirm = [this](const SightPoint& s) { return confirm(s); }};
+      result = search_cover(space_, terms);
+    }
+    result.counts.samples = sampler_.tried();
+    return result;
+  }
+
+  [[nodiscard]] const SightSpace& space() const { return space_; }
+
+ private:
+  void know(int i) {
+    known_.push_back(i);
+    sampler_.add(terms_.source.set()[i]);
+  }
+
+  std::optional<SightPoint> sample() {
+    const SegmentSampler::Confirm confirm = [this](const SightPoint& s) {
+      return std::ranges::none_of(space_.blockers(),
+                                  [&](const Blocker& blocker) {
+                                    return space_.blocks(blocker, s.alpha, s.beta);
+                                  }) &&
+             this->confirm(s);
+    };
+    if (request_.samples_only) return sampler_.spread(request_.samples, confirm);
+    const int spread = (request_.samples + 7) / 8;
+    std::optional<SightPoint> s = sampler_.spread(spread, confirm);
+    return s ? s : sampler_.descend(request_.samples - spread, confirm);
+  }
+
+  // No occluder blocks the segment; or one does that the space lacked, and has now.
+  bool confirm(const SightPoint& s) {
+    const int found = terms_.source.find_blocker(space_, s);
+    if (found < 0) return !terms_.accept || terms_.accept(space_, s);
+    if (std::ranges::find(known_, found) == known_.end()) know(found);
+    return false;
+  }
+
+  const PairTerms& terms_;
+  const VisibilityRequest& request_;
+  SightSpace space_;
+  SegmentSampler sampler_;
+  std::vector<int> known_;  // what the sampler was given, in order
+};
+
+}  // namespace
+
 VisibilityAnswer decide(std::span<const Triangle> a, std::span<const Triangle> b,
-                        const PairTerms& pair_terms, const VisibilityRequest& request) {
+                        const PairTerms& terms, const VisibilityRequest& request) {
   const auto started = std::chrono::steady_clock::now();
+  const auto stop = [&] {
+    const std::chrono::duration<double> spent =
+        std::chrono::steady_clock::now() - started;
+    return request.stop.stop_requested() || spent.count() > request.budget_seconds;
+  };
   VisibilityAnswer answer;
   auto data = std::make_shared<VisibilityCover::Data>();
   bool undecided = false;
   for (const Triangle& from : a) {
     for (const Triangle& to : b) {
-      SightSpace space(from, to);
-      pair_terms.start(space);
-      SearchTerms terms;
-      terms.precision = request.precision;
-      terms.samples = request.samples;
-      terms.samples_only = request.samples_only;
-      terms.seed = request.seed;
-      terms.keep_cover = request.keep_cover;
-      terms.stop = [&] {
-        const std::chrono::duration<double> spent =
-            std::chrono::steady_clock::now() - started;
-        return request.stop.stop_requested() || spent.count() > request.budget_seconds;
-      };
-      terms.confirm = [&](const SightPoint& s) { return pair_terms.confirm(space, s); };
-      SearchResult result = search_cover(space, terms);
+      PairSearch pair(from, to, terms, request);
+      SearchResult result = pair.decide(stop);
       answer.cost += result.counts;
       if (result.outcome == SearchOutcome::Free) {
         answer.verdict = Verdict::Visible;
@@ -157,12 +220,13 @@ VisibilityAnswer decide(std::span<const Triangle> a, std::span<const Triangle> b
       }
       undecided |= result.outcome == SearchOutcome::Undecided;
       if (request.keep_cover) {
-        auto& pair = data->pairs.emplace_back();
-        pair.a = from;
-        pair.b = to;
-        for (const Form& form : space.forms()) pair.forms.push_back(form.name);
-        pair.blockers.assign(space.blockers().begin(), space.blockers().end());
-        pair.cover = std::move(result.cover);
+        const SightSpace& space = pair.space();
+        auto& cover = data->pairs.emplace_back();
+        cover.a = from;
+        cover.b = to;
+        for (const Form& form : space.forms()) cover.forms.push_back(form.name);
+        cover.blockers.assign(space.blockers().begin(), space.blockers().end());
+        cover.cover = std::move(result.cover);
       }
     }
   }
@@ -202,13 +266,7 @@ VisibilityAnswer polygon_visibility(const VisibilityQuestion& question,
       return internal::may_touch(p, q, sliver);
     });
   };
-  return internal::decide(
-      cut.a, cut.b,
-      {[&](internal::SightSpace& space) { source.start(space); },
-       [&](internal::SightSpace& space, const internal::SightPoint& s) {
-         return source.is_free(space, s) && misses_slivers(space, s);
-       }},
-      request);
+  return internal::decide(cut.a, cut.b, {source, {}, misses_slivers}, request);
 }
 
 }  // namespace sightline

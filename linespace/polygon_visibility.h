@@ -50,8 +50,9 @@ struct ExactPosition {
 };
 
 struct VisibilityRequest : Request {
-  /// Random segments tried first.
-  int samples = 2048;
+  /// Segments tried first: an eighth of them evenly spread, the others on walks from the
+  /// least blocked of these; with samples_only all are spread.
+  int samples = 4096;
   /// Stop there: the answer is Visible, with a witness, or Undecided.
   bool samples_only = false;
   std::uint64_t seed = 1;
@@ -59,7 +60,7 @@ struct VisibilityRequest : Request {
 };
 
 struct VisibilityCost {
-  std::int64_t samples = 0;      ///< random segments tried
+  std::int64_t samples = 0;      ///< segments tried before the search
   std::int64_t cells = 0;        ///< parts of the space of segments looked at
   std::int64_t games = 0;        ///< linear programs in doubles
   std::int64_t exact_games = 0;  ///< linear programs in rationals

@@ -7,16 +7,18 @@
 #include <span>
 
 #include "linespace/cover_search_internal.h"
+#include "linespace/occluder_source_internal.h"
 #include "linespace/polygon_visibility.h"
 #include "linespace/visibility_cover_internal.h"
 
 namespace sightline::internal {
 
 struct PairTerms {
-  /// Adds the occluders known from the start to the space of a pair of triangles.
-  std::function<void(SightSpace&)> start;
-  /// As SearchTerms::confirm.
-  std::function<bool(SightSpace&, const SightPoint&)> confirm;
+  OccluderSource& source;
+  /// Polygons of the source to try first.
+  std::span<const int> known;
+  /// Asked of a segment that no occluder blocks; null: it is free.
+  std::function<bool(const SightSpace&, const SightPoint&)> accept;
 };
 
 /// Pair after pair of triangles, until one is visible.

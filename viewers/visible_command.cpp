@@ -317,7 +317,7 @@ Command add_visible_command(CLI::App& app) {
       ->add_option(
           "--rays", options->rays,
           "number of random segments: of --method sampled (default 10000 between "
-          "groups, 2048 between polygons), or tried first by exact (2048)")
+          "groups, 4096 between polygons), or tried first by exact (4096)")
       ->type_name("N")
       ->check(CLI::PositiveNumber);
   command
