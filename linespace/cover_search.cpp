@@ -3,6 +3,7 @@
 #include <cmath>
 #include <random>
 
+#include "linespace/concurrent_lines_internal.h"
 #include "linespace/cover_search_internal.h"
 #include "linespace/exact_numbers_internal.h"
 #include "linespace/matrix_game_internal.h"
@@ -19,6 +20,9 @@ using Bits = std::uint64_t;
 constexpr double kDoubtful = 0x1p-36;
 // A proof is accepted as soon as it has a margin that rounding does not eat up.
 constexpr double kEnough = -0x1p-30;
+// From this many halvings on, a cell with no segment to be found may well lie within one
+// blocker.
+constexpr int kSmall = 6;
 // From this many halvings on, proofs of second order are tried.
 constexpr int kSecondOrder = 8;
 // Exact proofs of second order with longer numbers than kLongNumbers bits wait for
@@ -925,16 +929,109 @@ class Search {
 
   // A cell in which no segment was found, nor a proof that there is none.
   bool divide(Domain& d) {
-    if (is_empty_to_second_order(d)) return false;
+    if (d.halvings_from + d.halvings_to >= kSmall) {
+      const Verdict around = judge_middle(d);
+      if (around.free) return true;
+      if (around.blocker >= 0) {
+        emit_blocked(around.blocker);
+        return false;
+      }
+    }
+    if (is_empty_at_a_corner(d) || is_empty_to_second_order(d)) return false;
     return halve(d);
   }
 
-  bool halve(Domain& d) {
-    const auto longest = [](const Triangle& t, const std::array<Weights, 3>& corners) {
-      std::array<Point, 3> p;
-      for (int j = 0; j < 3; ++j) {
-        p[j] = corners[j][0] * t[0] + corners[j][1] * t[1] + corners[j][2] * t[2];
+  // Whatever the cell is, all of the domain around it may be blocked; or its middle free.
+  Verdict judge_middle(Domain& d) {
+    const LocalPoint middle{{1.0 / 3, 1.0 / 3, 1.0 / 3}, {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+    const auto known = [&]() -> Verdict {
+      const int b = blocker_at(d, middle);
+      return {false, b >= 0 && open_parts(d, b) == 0 ? b : -1};
+    };
+    const Verdict verdict = known();
+    const auto alpha = exact_weights(mixed(d.from, middle.alpha));
+    const auto beta = exact_weights(mixed(d.to, middle.beta));
+    if (verdict.blocker >= 0 || !alpha || !beta) return verdict;
+    const SightPoint s{*alpha, *beta};
+    if (exact_blocker(s) >= 0) return verdict;
+    if (confirmed(s)) return {true, -1};
+    index_pool();
+    return known();
+  }
+
+  // Three lines of the path through one point rule each other out: outlines are full of
+  // such corners, and there halving never ends.
+  bool is_empty_at_a_corner(Domain& d) {
+    constexpr std::size_t kMostTriples = 64;
+    std::vector<SignedLine> lines;
+    std::vector<int> forms;
+    for (const Step& step : path_) {
+      if (space_.forms()[step.form].name.kind != FormKind::EdgeSide) continue;
+      if (live(d, step.form).constant != 0) continue;
+      lines.push_back({space_.points(step.form), step.sign});
+      forms.push_back(step.form);
+    }
+    if (lines.size() < 3) return false;
+    const Triangle a = corners(space_.a(), d.from), b = corners(space_.b(), d.to);
+    for (const auto& [i, j, k] : concurrent_triples(lines, kMostTriples)) {
+      const std::array<SignedLine, 3> triple{lines[i], lines[j], lines[k]};
+      if (!may_have_concurrent_weights(triple, a, b)) continue;
+      if (terms_.precision == Precision::Double) return true;
+      const auto weights = concurrent_weights(triple, exact_corners(space_.a(), d.from),
+                                              exact_corners(space_.b(), d.to));
+      if (!weights) continue;
+      note_empty(shares_of({forms[i], forms[j], forms[k]}, *weights));
+      return true;
+    }
+    return false;
+  }
+
+  // Weights of unscaled forms at corner pairs.
+  std::vector<CoverShare> shares_of(
+      const std::array<int, 3>& forms,
+      const std::array<std::array<Rational, 9>, 3>& weights) {
+    std::vector<CoverShare> shares;
+    if (!terms_.keep_cover) return shares;
+    for (int i = 0; i < 3; ++i) {
+      for (std::int8_t n = 0; n < 9; ++n) {
+        if (weights[i][n] == 0) continue;
+        CoverShare share{forms[i],
+                         -1,
+                         {static_cast<std::int8_t>(n / 3), -1},
+                         {static_cast<std::int8_t>(n % 3), -1}};
+        share.exact = static_cast<int>(cover_.exact_weights.size());
+        cover_.exact_weights.push_back(weights[i][n]);
+        scale(cover_.exact_weights.back(), space_.exponent(forms[i]));
+        shares.push_back(share);
       }
+    }
+    return shares;
+  }
+
+  static Triangle corners(const Triangle& t, const std::array<Weights, 3>& weights) {
+    Triangle out;
+    for (int j = 0; j < 3; ++j) {
+      out[j] = weights[j][0] * t[0] + weights[j][1] * t[1] + weights[j][2] * t[2];
+    }
+    return out;
+  }
+
+  static std::array<ExactPoint, 3> exact_corners(const Triangle& t,
+                                                 const std::array<Weights, 3>& weights) {
+    std::array<ExactPoint, 3> out;
+    for (int j = 0; j < 3; ++j) {
+      for (int i = 0; i < 3; ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+          out[j][axis] += Rational(weights[j][i]) * Rational(t[i][axis]);
+        }
+      }
+    }
+    return out;
+  }
+
+  bool halve(Domain& d) {
+    const auto longest = [](const Triangle& t, const std::array<Weights, 3>& weights) {
+      const Triangle p = corners(t, weights);
       std::pair<double, int> best{-1, 0};
       for (int i = 0; i < 3; ++i) {
         best = std::max(best, {(p[(i + 1) % 3] - p[i]).norm(), -i});

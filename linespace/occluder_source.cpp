@@ -1,8 +1,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "linespace/occluder_source_internal.h"
+#include "linespace/patch_growth_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -111,6 +113,60 @@ std::vector<int> OccluderSet::near(const SightSpace& space, const SightPoint& s)
   return found;
 }
 
+std::array<Point, 2> OccluderSet::ends(const Side& side) const {
+  const Polygon& p = polygons_[side.polygon];
+  return {p[side.corner], p[(side.corner + 1) % p.size()]};
+}
+
+void OccluderSet::index_sides() const {
+  // The same for both directions.
+  const auto hash = [](const std::array<Point, 2>& ends) {
+    std::uint64_t sum = 0;
+    for (const Point& x : ends) {
+      std::uint64_t h = 0;
+      for (const double c : x) {
+        h = (h ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15;
+        h ^= h >> 32;
+      }
+      sum += h;
+    }
+    return sum;
+  };
+  for (std::size_t i = 0; i < polygons_.size(); ++i) {
+    for (std::size_t k = 0; k < polygons_[i].size(); ++k) {
+      const Side side{static_cast<int>(i), static_cast<int>(k)};
+      sides_.push_back({hash(ends(side)), side});
+    }
+  }
+  std::ranges::stable_sort(sides_, {}, &HashedSide::hash);
+  first_side_.assign(polygons_.size(), {});
+  std::size_t total = 0;
+  for (std::size_t i = 0; i < polygons_.size(); ++i) {
+    first_side_[i] = total;
+    total += polygons_[i].size();
+  }
+  place_.resize(total);
+  for (std::size_t n = 0; n < sides_.size(); ++n) {
+    place_[first_side_[sides_[n].side.polygon] + sides_[n].side.corner] = n;
+  }
+}
+
+std::optional<OccluderSet::Side> OccluderSet::neighbour(const Side& side) const {
+  std::call_once(sides_indexed_, [this] { index_sides(); });
+  const std::size_t place = place_[first_side_[side.polygon] + side.corner];
+  std::size_t first = place, last = place;
+  while (first > 0 && sides_[first - 1].hash == sides_[place].hash) --first;
+  while (last + 1 < sides_.size() && sides_[last + 1].hash == sides_[place].hash) ++last;
+  if (last - first != 1) return std::nullopt;
+  const Side other = sides_[first == place ? last : first].side;
+  const auto [u, v] = ends(side);
+  const auto [x, y] = ends(other);
+  if (other.polygon == side.polygon || !((u == x && v == y) || (u == y && v == x))) {
+    return std::nullopt;
+  }
+  return other;
+}
+
 OccluderSource::OccluderSource(const OccluderSet& set, Numbers numbers,
                                std::function<bool(int)> skip)
     : set_(set), numbers_(numbers), skip_(std::move(skip)) {}
@@ -118,6 +174,7 @@ OccluderSource::OccluderSource(const OccluderSet& set, Numbers numbers,
 std::vector<int> OccluderSource::start(std::span<const int> known) {
   const std::size_t count = set_.polygons().size();
   in_space_.assign(count, false);
+  in_patch_.assign(count, false);
   std::vector<int> first;
   if (count <= kFewPolygons) {
     for (std::size_t i = 0; i < count; ++i) first.push_back(static_cast<int>(i));
@@ -137,10 +194,32 @@ std::vector<int> OccluderSource::start(std::span<const int> known) {
 void OccluderSource::add(SightSpace& space, int i) {
   if (in_space_[i]) return;
   in_space_[i] = true;
+  space.add(number(i), {number(i), set_[i]});
+}
+
+int OccluderSource::number(int i) {
+  if (numbers_ == Numbers::AsInSet) return i;
   const auto [entry, is_new] = number_.try_emplace(i, static_cast<int>(found_.size()));
   if (is_new) found_.push_back(i);
-  const int number = numbers_ == Numbers::AsInSet ? i : entry->second;
-  space.add(number, {number, set_[i]});
+  return entry->second;
+}
+
+void OccluderSource::add_patch(SightSpace& space, int i, const SightPoint& s) {
+  constexpr std::size_t kMostPatches = 64;
+  if (space.patches().size() >= kMostPatches) return;
+  const std::vector<PatchGrowth::Member> members =
+      PatchGrowth(set_, space, s, skip_).around(i);
+  if (members.size() < 2) return;
+  std::vector<Piece> pieces;
+  for (const auto& [polygon, front] : members) {
+    pieces.push_back({number(polygon), set_[polygon]});
+  }
+  std::vector<SightSpace::PatchPiece> patch;
+  for (std::size_t k = 0; k < members.size(); ++k) {
+    patch.push_back({{pieces[k].occluder, members[k].front}, &pieces[k]});
+  }
+  if (!space.add_patch(patch)) return;
+  for (const auto& member : members) in_patch_[member.polygon] = true;
 }
 
 int OccluderSource::find_blocker(SightSpace& space, const SightPoint& s) {
@@ -156,7 +235,9 @@ int OccluderSource::find_blocker(SightSpace& space, const SightPoint& s) {
     const std::size_t before = space.blockers().size();
     add(space, i);
     for (std::size_t b = before; b < space.blockers().size(); ++b) {
-      if (space.blocks(space.blockers()[b], s.alpha, s.beta)) return i;
+      if (!space.blocks(space.blockers()[b], s.alpha, s.beta)) continue;
+      add_patch(space, i, s);
+      return i;
     }
   }
   return -1;

@@ -2,7 +2,10 @@
 
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -25,10 +28,28 @@ class OccluderSet {
   /// arithmetic with bounds.
   [[nodiscard]] std::vector<int> near(const SightSpace& space, const SightPoint& s) const;
 
+  /// The one other polygon that has this side, corner for corner, and which of its sides
+  /// it is; nullopt for none or several.
+  struct Side {
+    int polygon, corner;
+  };
+  [[nodiscard]] std::optional<Side> neighbour(const Side& side) const;
+
  private:
+  // Sides in order of a hash of their ends, so that equal ones are next to each other.
+  struct HashedSide {
+    std::uint64_t hash;
+    Side side;
+  };
+  void index_sides() const;
+  [[nodiscard]] std::array<Point, 2> ends(const Side& side) const;
+
   std::vector<Polygon> polygons_;
   std::vector<Box> boxes_;
   std::optional<Bvh> tree_;
+  mutable std::once_flag sides_indexed_;
+  mutable std::vector<HashedSide> sides_;
+  mutable std::vector<std::size_t> first_side_, place_;  // of a side in sides_
 };
 
 /// Feeds a SightSpace from an OccluderSet.
@@ -44,6 +65,10 @@ class OccluderSource {
   std::vector<int> start(std::span<const int> known);
   /// Adds the polygon to the space, once.
   void add(SightSpace& space, int i);
+  /// Adds the surface around the polygon that blocks the segment, which the polygon does.
+  void add_patch(SightSpace& space, int i, const SightPoint& s);
+  /// Whether some patch of the space has the polygon.
+  [[nodiscard]] bool in_patch(int i) const { return in_patch_[i]; }
   /// -1 when no polygon of the set that is not in the space yet blocks the segment;
   /// otherwise one that does, and it was added.
   int find_blocker(SightSpace& space, const SightPoint& s);
@@ -52,12 +77,14 @@ class OccluderSource {
   [[nodiscard]] const std::vector<int>& found() const { return found_; }
 
  private:
+  [[nodiscard]] int number(int i);
+
   const OccluderSet& set_;
   Numbers numbers_;
   std::function<bool(int)> skip_;
   std::vector<int> found_;
   std::unordered_map<int, int> number_;
-  std::vector<bool> in_space_;
+  std::vector<bool> in_space_, in_patch_;
 };
 
 }  // namespace sightline::internal

@@ -144,10 +144,11 @@ class PairSearch {
       result.segment = sampled;
       result.counts.undecided = sampled ? 0 : 1;
     } else {
-      for (const int i : sampler_.heavy()) terms_.source.add(space_, known_[i]);
+      const std::vector<SightPoint> pool = sampler_.first();
+      for (const int i : sampler_.heavy()) add_with_patch(known_[i], pool);
       SearchTerms terms{.precision = request_.precision,
                         .seed = request_.seed,
-                        .pool = sampler_.first(),
+                        .pool = pool,
                         .keep_cover = request_.keep_cover,
                         .stop = stop,
                         .confirm = [this](const SightPoint& s) { return confirm(s); }};
@@ -177,6 +178,20 @@ class PairSearch {
     const int spread = (request_.samples + 7) / 8;
     std::optional<SightPoint> s = sampler_.spread(spread, confirm);
     return s ? s : sampler_.descend(request_.samples - spread, confirm);
+  }
+
+  // Of a patch that is there, one piece is enough.
+  void add_with_patch(int i, const std::vector<SightPoint>& pool) {
+    if (terms_.source.in_patch(i)) return;
+    const std::size_t before = space_.blockers().size();
+    terms_.source.add(space_, i);
+    const auto blockers = space_.blockers().subspan(before);
+    const auto s = std::ranges::find_if(pool, [&](const SightPoint& point) {
+      return std::ranges::any_of(blockers, [&](const Blocker& blocker) {
+        return space_.blocks(blocker, point.alpha, point.beta);
+      });
+    });
+    if (s != pool.end()) terms_.source.add_patch(space_, i, *s);
   }
 
   // No occluder blocks the segment; or one does that the space lacked, and has now.
@@ -226,6 +241,7 @@ VisibilityAnswer decide(std::span<const Triangle> a, std::span<const Triangle> b
         cover.b = to;
         for (const Form& form : space.forms()) cover.forms.push_back(form.name);
         cover.blockers.assign(space.blockers().begin(), space.blockers().end());
+        cover.patches = space.patches();
         cover.cover = std::move(result.cover);
       }
     }

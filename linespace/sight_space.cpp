@@ -92,6 +92,16 @@ Point apex_off(const Triangle& t) {
   return apex;
 }
 
+int side_of_plane(const Triangle& plane, std::span<const Point> points) {
+  bool above = false, below = false;
+  for (const Point& x : points) {
+    const Sign side = orient3d(plane[0], plane[1], plane[2], x);
+    above |= side == Sign::Positive;
+    below |= side == Sign::Negative;
+  }
+  return above && !below ? 1 : below && !above ? -1 : 0;
+}
+
 std::size_t SightSpace::KeyHash::operator()(const Key& key) const {
   std::uint64_t h = 0;
   for (const double x : key.numbers) {
@@ -108,6 +118,8 @@ SightSpace::SightSpace(const Triangle& a, const Triangle& b) : a_(a), b_(b) {
     for (const Point& p : *t) largest = std::max(largest, p.cwiseAbs().maxCoeff());
   }
   size_ = std::ldexp(1.0, exponent_of(std::array{largest}));
+  b_of_a_ = side_of_plane(a_, b_);
+  a_of_b_ = side_of_plane(b_, a_);
 }
 
 SightSpace::Key SightSpace::line_key(const Point& from, const Point& to) const {
@@ -149,14 +161,12 @@ int SightSpace::form(const FormName& name, const Piece& piece, bool* reversed) {
       std::swap(x[0], x[1]);
       *reversed = true;
     }
-    const auto [known, is_new] =
-        edge_forms_.try_emplace(line_key(x[0], x[1]), static_cast<int>(forms_.size()));
-    if (!is_new) {
-      const FormPoints& y = points_[known->second];
-      if (collinear(y[0], y[1], x[0]) && collinear(y[0], y[1], x[1])) {
-        return known->second;
-      }
+    std::vector<int>& known = edge_forms_[line_key(x[0], x[1])];
+    for (const int f : known) {
+      const FormPoints& y = points_[f];
+      if (collinear(y[0], y[1], x[0]) && collinear(y[0], y[1], x[1])) return f;
     }
+    known.push_back(static_cast<int>(forms_.size()));
   }
   return new_form(name, x);
 }
@@ -224,7 +234,7 @@ void SightSpace::store(Blocker blocker, std::span<const Blocker::Part> parts) {
   blocker.count = static_cast<int>(parts.size());
   parts_.insert(parts_.end(), parts.begin(), parts.end());
   for (const auto& [form, sign] : parts) {
-    if (forms_[form].name.kind != FormKind::EdgeSide) continue;
+    if (blocker.patch >= 0 || forms_[form].name.kind != FormKind::EdgeSide) continue;
     users_[form].emplace_back(static_cast<int>(blockers_.size()), sign);
   }
   blockers_.push_back(blocker);
@@ -291,6 +301,64 @@ void SightSpace::add(int number, const Piece& piece) {
     add_blocker(number, parts);
   }
   join_neighbours();
+}
+
+SightSpace::Between SightSpace::between(const Piece& piece, int front) const {
+  // A corner in the plane of a is as good as one beyond it: q is not in that plane.
+  const auto on_side = [&](const Triangle& plane, int side) {
+    return side != 0 && std::ranges::all_of(piece.corners, [&](const Point& x) {
+             return static_cast<int>(orient3d(plane[0], plane[1], plane[2], x)) != -side;
+           });
+  };
+  if (on_side(a_, b_of_a_) && on_side(b_, a_of_b_)) return Between::Always;
+  const Triangle plane{piece.corners[0], piece.corners[1], piece.corners[2]};
+  const int a = side_of_plane(plane, a_), b = side_of_plane(plane, b_);
+  const auto in_plane = [&](const Point& x) {
+    return orient3d(plane[0], plane[1], plane[2], x) == Sign::Zero;
+  };
+  if (a == -front || b == front) return Between::Never;
+  if (a == 0 && b == 0 && std::ranges::all_of(a_, in_plane) &&
+      std::ranges::all_of(b_, in_plane))
+    return Between::Never;  // all of it in one plane
+  return a == front && b == -front ? Between::Always : Between::WhereItsPlaneDivides;
+}
+
+bool SightSpace::add_patch(std::span<const PatchPiece> patch) {
+  std::map<int, const Piece*> pieces;
+  std::vector<FacingPiece> facing;
+  std::set<Blocker::Part> parts;
+  bool possible = true;
+  const auto require = [&](int form, int sign) {
+    const std::int8_t constant = forms_[form].constant;
+    possible &=
+        constant != -sign && !parts.contains({form, static_cast<std::int8_t>(-sign)});
+    if (constant == 0) parts.insert({form, static_cast<std::int8_t>(sign)});
+  };
+  bool reversed;
+  for (const auto& [faces, piece] : patch) {
+    pieces[faces.piece] = piece;
+    facing.push_back(faces);
+    if (between(*piece, faces.front) == Between::Always) continue;
+    require(form({FormKind::FromPlane, faces.piece, 0}, *piece, &reversed), faces.front);
+    require(form({FormKind::ToPlane, faces.piece, 0}, *piece, &reversed), -faces.front);
+  }
+  const auto corners_of = [&](int piece) {
+    return std::span<const Point>(pieces[piece]->corners);
+  };
+  const std::vector<OutlineSide> sides = outline(facing, corners_of);
+  for (const OutlineSide& side : sides) {
+    // As in add(): a side passed from corner to corner is counted as negative.
+    require(form({FormKind::EdgeSide, side.piece, side.corner}, *pieces[side.piece],
+                 &reversed),
+            side.times > 0 ? -1 : 1);
+  }
+  if (!possible || sides.empty()) return false;
+  Blocker blocker{-1, 0};
+  blocker.patch = static_cast<int>(patches_.size());
+  patches_.push_back(std::move(facing));
+  store(blocker, std::vector<Blocker::Part>(parts.begin(), parts.end()));
+  neighbours_known_ = blockers_.size();
+  return true;
 }
 
 // All in one plane: the segment meets the piece iff it crosses one of its sides, or p

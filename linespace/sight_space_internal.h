@@ -11,9 +11,11 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <map>
 #include <set>
 #include <span>
 #include <unordered_map>
@@ -71,6 +73,13 @@ struct Form {
   std::int8_t constant = 0;
 };
 
+/// A piece with the side from which it is crossed: front 1, from the side of its plane
+/// on which orient3d of its first three corners is positive.
+struct FacingPiece {
+  int piece;
+  std::int8_t front;
+};
+
 /// One way in which an occluder blocks: where sign * form >= 0 for all of its parts, see
 /// SightSpace::parts.
 struct Blocker {
@@ -79,13 +88,15 @@ struct Blocker {
     std::int8_t sign;
     auto operator<=>(const Part&) const = default;
   };
-  int piece;             ///< -1 for two blockers in one
+  int piece;             ///< -1 for a patch, and for two blockers in one
   int first, count = 0;  ///< of its parts
   /// Two blockers of which one has `shared` as a part, the other its opposite.  Where all
   /// their other parts hold, one of the two blocks: a line that passes inside the
   /// silhouette of both meets one of them, on whichever side of their common edge.
   std::array<int, 2> halves{-1, -1};
   Part shared{-1, 0};  ///< as halves[0] has it
+  /// A connected surface that blocks by its outline: position in patches().
+  int patch = -1;
 };
 
 /// A convex planar occluder, at least three corners, the first three not collinear.
@@ -104,6 +115,27 @@ class SightSpace {
   /// an edge's line with it; those that block no open set of segments are left out.
   void add(int number, const Piece& piece);
 
+  /// How a crossing of the piece is known to lie between p and q: because the whole piece
+  /// lies between the planes of a and b, or all of a and all of b on opposite sides of
+  /// its plane; because the segment has them so, which takes two parts; or never.
+  enum class Between : std::uint8_t { Always, WhereItsPlaneDivides, Never };
+  [[nodiscard]] Between between(const Piece& piece, int front) const;
+
+  /// Pieces with the side from which they are crossed; common sides, with the very same
+  /// corners, cancel when they are passed in opposite directions, and what remains is the
+  /// patch's outline.  A line that has every side of the outline on the same hand winds
+  /// around it, and so meets the patch.
+  struct PatchPiece {
+    FacingPiece facing;
+    const Piece* piece;
+  };
+  /// False, and nothing added, when no open set of segments passes it so, or its outline
+  /// is empty.  Requires that no piece is never between.
+  bool add_patch(std::span<const PatchPiece> patch);
+  [[nodiscard]] const std::vector<std::vector<FacingPiece>>& patches() const {
+    return patches_;
+  }
+
   [[nodiscard]] const Triangle& a() const { return a_; }
   [[nodiscard]] const Triangle& b() const { return b_; }
   [[nodiscard]] std::span<const Form> forms() const { return forms_; }
@@ -112,6 +144,8 @@ class SightSpace {
   [[nodiscard]] std::span<const Blocker::Part> parts(const Blocker& blocker) const {
     return {parts_.data() + blocker.first, static_cast<std::size_t>(blocker.count)};
   }
+
+  [[nodiscard]] const FormPoints& points(int form) const { return points_[form]; }
 
   /// CornerValues are the form's values times 2 to the minus this.
   [[nodiscard]] int exponent(int form) const { return exponents_[form]; }
@@ -149,7 +183,10 @@ class SightSpace {
   std::vector<FormPoints> points_;
   std::vector<Blocker> blockers_;
   std::vector<Blocker::Part> parts_;
-  std::unordered_map<Key, int, KeyHash> edge_forms_;
+  std::vector<std::vector<FacingPiece>> patches_;
+  // Side of b of a's plane and of a of b's plane; 0: not on one side.
+  int b_of_a_ = 0, a_of_b_ = 0;
+  std::unordered_map<Key, std::vector<int>, KeyHash> edge_forms_;
   // For each form that is an edge's: the blockers it is a part of.
   std::unordered_map<int, std::vector<std::pair<int, std::int8_t>>> users_;
   std::set<std::vector<Blocker::Part>> joined_;
@@ -157,8 +194,52 @@ class SightSpace {
   double size_ = 1;                   // of the largest coordinate, a power of two
 };
 
+/// The outline of a patch: sides of pieces from their lexicographically smaller end, and
+/// how often they are passed in that direction; those that cancel are left out.
+struct OutlineSide {
+  int piece, corner;  ///< one of the pieces that have it
+  int times;
+};
+template <class CornersOf>  // std::span<const Point>(int piece)
+[[nodiscard]] std::vector<OutlineSide> outline(std::span<const FacingPiece> patch,
+                                               CornersOf corners_of);
+
+/// 1 or -1 when all points are on that side of the triangle's plane or on it, and one is
+/// off it; 0 otherwise.
+[[nodiscard]] int side_of_plane(const Triangle& plane, std::span<const Point> points);
+
 /// A point off the plane of the triangle, with coordinates near its own.
 [[nodiscard]] Point apex_off(const Triangle& triangle);
+
+template <class CornersOf>
+std::vector<OutlineSide> outline(std::span<const FacingPiece> patch,
+                                 CornersOf corners_of) {
+  const auto less = [](const Point& u, const Point& v) {
+    return std::lexicographical_compare(u.data(), u.data() + 3, v.data(), v.data() + 3);
+  };
+  const auto both_less = [&](const std::array<Point, 2>& x,
+                             const std::array<Point, 2>& y) {
+    if (x[0] != y[0]) return less(x[0], y[0]);
+    return less(x[1], y[1]);
+  };
+  std::map<std::array<Point, 2>, OutlineSide, decltype(both_less)> sides(both_less);
+  for (const auto& [piece, front] : patch) {
+    const std::span<const Point> corners = corners_of(piece);
+    for (std::size_t i = 0; i < corners.size(); ++i) {
+      std::array<Point, 2> ends{corners[i], corners[(i + 1) % corners.size()]};
+      const bool reversed = less(ends[1], ends[0]);
+      if (reversed) std::swap(ends[0], ends[1]);
+      const auto [known, is_new] =
+          sides.try_emplace(ends, OutlineSide{piece, static_cast<int>(i), 0});
+      known->second.times += reversed ? -front : front;
+    }
+  }
+  std::vector<OutlineSide> left;
+  for (const auto& [ends, side] : sides) {
+    if (side.times != 0) left.push_back(side);
+  }
+  return left;
+}
 
 /// orient3d's determinant, exactly.
 [[nodiscard]] Rational exact_orient3d(const ExactPoint& a, const ExactPoint& b,

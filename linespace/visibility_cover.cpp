@@ -150,10 +150,10 @@ class Checker {
       case CoverNode::Kind::HalveTo:
         return halve(node, a, b);
       case CoverNode::Kind::Blocked:
-        if (!blocked(pair_.blockers[node.index].piece, a, b)) fail("not blocked");
+        if (!contradicted_ && !blocked(pair_.blockers[node.index], a, b)) fail("not blocked");
         return;
       case CoverNode::Kind::Empty:
-        if (!empty(node, a, b)) fail("not proved empty");
+        if (!contradicted_ && !empty(node, a, b)) fail("not proved empty");
         return;
     }
   }
@@ -161,11 +161,15 @@ class Checker {
   void split(const CoverNode& node, const ExactTriangle& a, const ExactTriangle& b) {
     if (node.sign != 1 && node.sign != -1) return fail("a split without a sign");
     const Measure m = measure(pair_.forms[node.index]);
+    const bool was_contradicted = contradicted_;
     for (const int sign : {int{node.sign}, -node.sign}) {
+      // No segment has both signs: of such a cell nothing need be shown.
+      contradicted_ = was_contradicted || assumed(m) == -sign;
       assumed_.push_back({m, sign});
       cell(a, b);
       assumed_.pop_back();
     }
+    contradicted_ = was_contradicted;
   }
 
   void halve(const CoverNode& node, const ExactTriangle& a, const ExactTriangle& b) {
@@ -181,6 +185,52 @@ class Checker {
       half[moved] = middle;
       from ? cell(half, b) : cell(a, half);
     }
+  }
+
+  bool blocked(const Blocker& blocker, const ExactTriangle& a, const ExactTriangle& b) {
+    if (blocker.patch >= 0) return blocked_by_patch(pair_.patches[blocker.patch], a, b);
+    return blocked(blocker.piece, a, b);
+  }
+
+  // All lines of the cell have all of the outline on one hand: they turn around it at
+  // least once, and so cross the patch at least once.  They cross it between p and q: no
+  // piece of it is behind the plane of a or of b, or p and q are on two sides of its
+  // plane.
+  bool blocked_by_patch(const std::vector<FacingPiece>& patch, const ExactTriangle& a,
+                        const ExactTriangle& b) {
+    const auto corners_of = [&](int piece) {
+      return std::span<const Point>(question_.pieces[piece].corners);
+    };
+    const std::vector<OutlineSide> sides = outline(patch, corners_of);
+    for (const OutlineSide& side : sides) {
+      const Measure m = measure({FormKind::EdgeSide, side.piece, side.corner});
+      if (!holds(m, side.times > 0 ? -1 : 1, a, b)) return false;
+    }
+    return !sides.empty() && std::ranges::all_of(patch, [&](const FacingPiece& facing) {
+      return is_between(facing.piece) || is_divided(facing, a, b);
+    });
+  }
+
+  bool is_between(int piece) const {
+    const auto ahead = [](const Triangle& plane, const Triangle& other,
+                          std::span<const Point> corners) {
+      const int side = side_of_plane(plane, other);
+      return side != 0 && std::ranges::all_of(corners, [&](const Point& x) {
+               return side *
+                          static_cast<int>(orient3d(plane[0], plane[1], plane[2], x)) >=
+                      0;
+             });
+    };
+    const auto& corners = question_.pieces[piece].corners;
+    return ahead(pair_.a, pair_.b, corners) && ahead(pair_.b, pair_.a, corners);
+  }
+
+  bool is_divided(const FacingPiece& facing, const ExactTriangle& a,
+                  const ExactTriangle& b) {
+    const Measure from = measure({FormKind::FromPlane, facing.piece, 0});
+    const Measure to = measure({FormKind::ToPlane, facing.piece, 0});
+    return holds(from, facing.front, a, b) && holds(to, -facing.front, a, b) &&
+           !(is_zero(values(from, a, b)) && is_zero(values(to, a, b)));
   }
 
   // All segments of the cell meet the piece.
@@ -293,6 +343,7 @@ class Checker {
   Point apex_;
   std::size_t next_ = 0;
   std::vector<Assumption> assumed_;
+  bool contradicted_ = false;
   std::optional<std::string> error_;
 };
 

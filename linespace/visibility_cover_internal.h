@@ -32,6 +32,7 @@ struct VisibilityCover::Data {
     internal::Triangle a, b;
     std::vector<internal::FormName> forms;
     std::vector<internal::Blocker> blockers;
+    std::vector<std::vector<internal::FacingPiece>> patches;
     internal::Cover cover;
   };
   std::vector<PairCover> pairs;

@@ -317,6 +317,51 @@ VisibilityInstance grid_instance(std::uint64_t seed, int n, int side) {
   return instance;
 }
 
+namespace {
+
+Point on_grid(const Point& p) {
+  constexpr double kGrid = 0x1p20;
+  return {std::nearbyint(p[0] * kGrid) / kGrid, std::nearbyint(p[1] * kGrid) / kGrid,
+          std::nearbyint(p[2] * kGrid) / kGrid};
+}
+
+}  // namespace
+
+std::vector<std::vector<Point>> bulge(int k, double half_width, double height) {
+  const auto at = [&](int i, int j) {
+    const double x = 2.0 * i / k - 1, y = 2.0 * j / k - 1;
+    const double z = 0.5 + height * (1 - x * x) * (1 - y * y);
+    return on_grid({half_width * x, half_width * y, z});
+  };
+  std::vector<std::vector<Point>> triangles;
+  for (int i = 0; i < k; ++i) {
+    for (int j = 0; j < k; ++j) {
+      triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return triangles;
+}
+
+std::vector<std::vector<Point>> ball(const Point& centre, double radius, int rings) {
+  const double pi = std::acos(-1.0);
+  const auto at = [&](int i, int j) {
+    const double down = pi * i / rings, around = pi * (j % (2 * rings)) / rings;
+    const double out = i == 0 || i == rings ? 0 : std::sin(down);
+    return on_grid(centre + radius * Point(out * std::cos(around), out * std::sin(around),
+                                           std::cos(down)));
+  };
+  std::vector<std::vector<Point>> triangles;
+  for (int i = 0; i < rings; ++i) {
+    for (int j = 0; j < 2 * rings; ++j) {
+      if (i > 0) triangles.push_back({at(i, j), at(i + 1, j), at(i, j + 1)});
+      if (i < rings - 1)
+        triangles.push_back({at(i, j + 1), at(i + 1, j), at(i + 1, j + 1)});
+    }
+  }
+  return triangles;
+}
+
 VisibilityInstance transformed(const VisibilityInstance& instance, std::uint64_t seed) {
   Random random(seed);
   std::array<int, 3> axes = {0, 1, 2};

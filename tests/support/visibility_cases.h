@@ -49,6 +49,16 @@ struct VisibilityCase {
 /// magnitude.
 [[nodiscard]] VisibilityInstance lens_instance(double epsilon);
 
+/// Curved surfaces of triangles with corners rounded to multiples of 2^-20.
+///
+/// 2 k^2 triangles over the square of that half width around (0, 0, 1/2), bulging up by
+/// `height` in the middle.
+[[nodiscard]] std::vector<std::vector<Point>> bulge(int k, double half_width,
+                                                    double height);
+/// A closed ball in `rings` rings, 4 rings (rings - 1) triangles.
+[[nodiscard]] std::vector<std::vector<Point>> ball(const Point& centre, double radius,
+                                                   int rings);
+
 /// The same question asked otherwise: axes permuted, reflected and sheared by an integer
 /// map, polygons' corners rotated and reversed, occluders shuffled, a and b exchanged.
 /// Exact, and so with the same answer, when coordinates have at most 46 bits.
