@@ -877,7 +877,9 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
   if (node.kind != NodeKind::VEE &&
       node.generators[node.count - 1] < node.generators[0]) {
     std::reverse(node.generators.begin(), node.generators.begin() + node.count);
+    std::swap(node.segment[0], node.segment[1]);
   }
+  if (cut.kind == CurveCutKind::Far) std::swap(node.segment[0], node.segment[1]);
   const auto objects = [&](const Generator& x) -> std::vector<std::int32_t> {
     if (x.kind == GeneratorKind::Vertex) {
       const auto at = g_.objects_at(x.id);
