@@ -68,9 +68,6 @@ Domain& Domains::push() {
   Domain& d = *domains_[used_++];
   d.slots.assign(space_.forms().size(), -1);
   d.live.clear();
-  d.blockers.clear();
-  d.blockers_known = 0;
-  d.path_size = path_.steps.size();
   return d;
 }
 
@@ -115,26 +112,6 @@ const Domain::Live& Domains::live(Domain& d, int form) const {
     d.live.push_back(made);
   }
   return d.live[d.slots[form]];
-}
-
-const std::vector<int>& Domains::blockers(Domain& d) const {
-  if (d.whole == nullptr) {
-    for (; d.blockers_known < space_.blockers().size(); ++d.blockers_known) {
-      d.blockers.push_back(static_cast<int>(d.blockers_known));
-    }
-    return d.blockers;
-  }
-  const std::vector<int>& candidates = blockers(*d.whole);
-  for (; d.blockers_known < candidates.size(); ++d.blockers_known) {
-    const int b = candidates[d.blockers_known];
-    const auto parts = space_.parts(space_.blockers()[b]);
-    const bool out = std::ranges::any_of(parts, [&](const Blocker::Part& p) {
-      return (path_.sign[p.form] == -p.sign && path_.position[p.form] < d.path_size) ||
-             live(d, p.form).constant == -p.sign;
-    });
-    if (!out) d.blockers.push_back(b);
-  }
-  return d.blockers;
 }
 
 const std::array<Rational, 9>& Domains::exact_values(int form) {

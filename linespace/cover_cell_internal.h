@@ -23,15 +23,10 @@ struct Step {
 /// The signs that a cell's forms have.
 struct CellPath {
   std::vector<Step> steps;
-  std::vector<std::int8_t> sign;      ///< per form: its sign in the cell, 0 unknown
-  std::vector<std::size_t> position;  ///< and its position among the steps
+  std::vector<std::int8_t> sign;  ///< per form: its sign in the cell, 0 unknown
 
-  void make_room(std::size_t forms) {
-    sign.resize(forms, 0);
-    position.resize(forms, 0);
-  }
+  void make_room(std::size_t forms) { sign.resize(forms, 0); }
   void push(const Step& step) {
-    position[step.form] = steps.size();
     sign[step.form] = step.sign;
     steps.push_back(step);
   }
@@ -56,8 +51,8 @@ struct Halving {
   int moved, other;
 };
 
-/// A product of two smaller triangles: forms restricted to it, and the blockers that may
-/// still block something there; both worked out when they are asked for.
+/// A product of two smaller triangles, and forms restricted to it, worked out when they
+/// are asked for.
 struct Domain {
   struct Live {
     CornerValues at;
@@ -68,28 +63,21 @@ struct Domain {
   std::array<Weights, 3> from, to;  ///< corners, by their weights in the whole triangles
   int halvings_from = 0, halvings_to = 0;
   [[nodiscard]] int halvings() const { return halvings_from + halvings_to; }
-  std::size_t path_size = 0;  ///< of the cell it was made for
-  std::vector<int> slots;     ///< per form: position in `live`, -1 for none
+  std::vector<int> slots;  ///< per form: position in `live`, -1 for none
   std::vector<Live> live;
-  std::vector<int> blockers;
-  std::size_t blockers_known = 0;  ///< of those of the whole
 };
 
 /// Domains of the cells from the whole space down to the one looked at, a stack.
 class Domains {
  public:
   /// Keeps references.
-  Domains(const SightSpace& space, const CellPath& path) : space_(space), path_(path) {}
+  explicit Domains(const SightSpace& space) : space_(space) {}
 
-  /// For the cell that the path has now.
   Domain& push_whole();
   Domain& push_half(Domain& whole, const Halving& cut);
   void pop() { --used_; }
 
   [[nodiscard]] const Domain::Live& live(Domain& d, int form) const;
-  /// The blockers that neither the path with which the domain was made nor a sign that is
-  /// constant on it rule out.
-  [[nodiscard]] const std::vector<int>& blockers(Domain& d) const;
 
   /// A form's corner values, on the scale of CornerValues; of the whole space, and of a
   /// domain.
@@ -100,7 +88,6 @@ class Domains {
   Domain& push();
 
   const SightSpace& space_;
-  const CellPath& path_;
   std::vector<std::unique_ptr<Domain>> domains_;  // the first used_
   std::size_t used_ = 0;
   std::unordered_map<int, std::array<Rational, 9>> exact_;

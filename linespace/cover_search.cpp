@@ -281,7 +281,7 @@ class Search {
   int popular_blocker(Domain& d, Bits samples) const {
     int best = -1;
     double best_score = 0;
-    for (const int b : domains_.blockers(d)) {
+    for (int b = 0; b < static_cast<int>(blocked_.size()); ++b) {
       const int count = std::popcount(samples & blocked_[b]);
       if (count == 0 || count + 1 < best_score || !can_subtract(d, b)) continue;
       const double score = count - 0.1 * open_parts(d, b);
@@ -296,11 +296,20 @@ class Search {
   // Blocks the point; the one that leaves fewest cells, and of these the one into which
   // the point is deepest.
   int blocker_at(Domain& d, const LocalPoint& p) const {
+    // Most are ruled out in the whole space already, where their forms are at hand.
+    constexpr double kCertainlyOutside = -0x1p-36;
+    const Weights alpha = mixed(d.from, p.alpha), beta = mixed(d.to, p.beta);
     int best = -1;
     double best_score = 0;
-    for (const int b : domains_.blockers(d)) {
+    for (int b = 0; b < static_cast<int>(space_.blockers().size()); ++b) {
+      const auto parts = space_.parts(space_.blockers()[b]);
+      if (std::ranges::any_of(parts, [&](const Blocker::Part& part) {
+            return part.sign * value_at(space_.forms()[part.form].at, alpha, beta) <
+                   kCertainlyOutside;
+          }))
+        continue;
       double depth = 1;
-      for (const auto& [form, sign] : space_.parts(space_.blockers()[b])) {
+      for (const auto& [form, sign] : parts) {
         depth =
             std::min(depth, sign * value_at(domains_.live(d, form).at, p.alpha, p.beta));
         if (depth < 0) break;
@@ -409,7 +418,7 @@ class Search {
   std::vector<Bits> positive_, blocked_;
   VisibilityCost counts_;
   CellPath path_;
-  Domains domains_{space_, path_};
+  Domains domains_{space_};
   CoverWriter writer_;
   Emptiness emptiness_;
   Game game_;
