@@ -79,7 +79,7 @@ void write_picture(const ViewCommandOptions& options, const Shown& shown) {
     const auto opacity =
         static_cast<float>(std::clamp(8 / (eee.size() + 1.0), 0.004, 0.2));
     for (const int i : eee) {
-      add_eee_arc(view.drawing, shown.scene, skeleton.eee_arcs[i], opacity);
+      add_eee_arc(view.drawing, *shown.scene, skeleton.eee_arcs[i], opacity);
     }
     add_nodes(view.drawing, skeleton, evenly_spread(skeleton.nodes.size(), 4000), 0.4F,
               1.2F);
