@@ -289,6 +289,19 @@ void EdgePairs::visit(int i, std::vector<FoundArc>& out) {
   }
 }
 
+// A line that meets two sides of a facet lies in its plane: those are the lines of that
+// plane, not of three edges.
+bool EdgePairs::share_facet(const Ridge& a, const Ridge& b) const {
+  const auto facet = [&](const Edge::Side& s) { return scene_.faces()[s.face].facet; };
+  const auto& sides = scene_.edges()[b.edge].sides;
+  return std::any_of(scene_.edges()[a.edge].sides.begin(),
+                     scene_.edges()[a.edge].sides.end(), [&](const Edge::Side& x) {
+                       return std::any_of(
+                           sides.begin(), sides.end(),
+                           [&](const Edge::Side& y) { return facet(x) == facet(y); });
+                     });
+}
+
 EdgePairs::PlaneValues EdgePairs::values(const PlaneSide& plane, const Point& p0,
                                          const Point& p1) const {
   PlaneValues v{plane.value(p0), plane.value(p1), {}, {}};
@@ -317,6 +330,7 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
            v[0].sign0 == v[1].sign0 && v[0].sign0 != Sign::Zero;
   };
   if (never_grazes(outer.first_planes) || never_grazes(outer.last_planes)) return;
+  if (share_facet(r, s)) return;
   if (hidden_edge(s)) return;
   if (!gather(i, j)) return;
   if (middles_.empty()) return;
@@ -374,6 +388,7 @@ bool EdgePairs::gather(int i, int j) {
       middle_stamp_[m] = pair_stamp_;
       const Ridge& ridge = g_.ridges()[m];
       if (&ridge == &first || &ridge == &last) continue;
+      if (share_facet(ridge, first) || share_facet(ridge, last)) continue;
       const bool own = std::any_of(
           ridge.objects.begin(), ridge.objects.end(), [&](const std::int32_t& o) {
             return g_.convex_solid(o) && (share(std::span(&o, 1), first.objects) ||
@@ -958,6 +973,7 @@ void EdgePairs::list_contacts(const EeeCurve& curve, const CurveCut& cut,
   node.end = all.end;
   node.rising = false;
   node.all = all.generators;
+  if (all.turned) std::swap(node.segment[0], node.segment[1]);
 }
 
 }  // namespace sightline::internal

@@ -101,6 +101,7 @@ class EdgePairs {
   [[nodiscard]] bool hidden(const Box& box);
   [[nodiscard]] bool hidden_edge(const Ridge& last);
   void visit_pair(int i, int j, std::vector<FoundArc>& out);
+  [[nodiscard]] bool share_facet(const Ridge& a, const Ridge& b) const;
   [[nodiscard]] bool gather(int i, int j);
   void visit_middles(const Outer& outer, bool turned, std::vector<FoundArc>& out);
   void visit_curve(const Outer& outer, int middle, std::vector<FoundArc>& out);

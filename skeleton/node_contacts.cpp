@@ -234,7 +234,8 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan, bool end)
   for (auto group = groups.rbegin(); group != groups.rend(); ++group) {
     reversed.insert(reversed.end(), group->begin(), group->end());
   }
-  if (reversed < node.generators) node.generators = reversed;
+  node.turned = reversed < node.generators;
+  if (node.turned) node.generators = reversed;
   // A line along a face that ends where the face does.
   const bool stops = scan.blocked(first) || scan.blocked(last);
   node.end = end || (node.kind == NodeKind::FEE && stops);

@@ -30,6 +30,7 @@ struct NodeContacts {
   bool self = false;
   bool end = false;                   ///< some contact blocks the segment
   std::vector<Generator> generators;  ///< in order along the line
+  bool turned = false;                ///< listed against the line's direction
 };
 
 /// Of the contacts that meet the closed segment [0, 1] of the line.

@@ -252,9 +252,9 @@ TEST_F(Cli, SkeletonCountsAndListAgree) {
 }
 
 TEST_F(Cli, SkeletonKinds) {
-  const json both = answer({"skeleton", kCornell});
-  const json ev = answer({"skeleton", kCornell, "--kinds", "EV"});
-  const json eee = answer({"skeleton", kCornell, "--kinds", "EEE"});
+  const json both = answer({"skeleton", kRoom});
+  const json ev = answer({"skeleton", kRoom, "--kinds", "EV"});
+  const json eee = answer({"skeleton", kRoom, "--kinds", "EEE"});
   EXPECT_EQ(both.at("options").at("kinds"), json::parse(R"(["EV","EEE"])"));
   for (const json& j : {both, ev, eee}) {
     for (const char* kind : {"EV", "EEE", "EV_self", "EEE_self"}) {
@@ -331,7 +331,8 @@ TEST_F(Cli, ListOfEeeArcs) {
       })) << node;
     }
     const json& first = node.at("generators")[0];
-    if (first.at("type") == "vertex") {
+    // A degenerate line may go on beyond the arc that was found first.
+    if (first.at("type") == "vertex" && node.at("kind") != "degenerate") {
       EXPECT_LT((at(first.at("at")) - at(node.at("line")[0])).norm(), 1e-9) << node;
     }
   }
@@ -395,10 +396,10 @@ TEST_F(Cli, InterruptGivesAPartialAnswer) {
 
 TEST_F(Cli, AnalyseFillsAFolder) {
   const fs::path folder = folder_ / "report";
-  const json j = answer({"analyse", kCornell, "-o", folder.string()});
+  const json j = answer({"analyse", kRoom, "-o", folder.string()});
   expect_common_keys(j, "analyse");
   EXPECT_EQ(json::parse(contents(folder / "report.json")), j);
-  EXPECT_EQ(j.at("skeleton").at("arcs"), answer({"skeleton", kCornell}).at("arcs"));
+  EXPECT_EQ(j.at("skeleton").at("arcs"), answer({"skeleton", kRoom}).at("arcs"));
   EXPECT_TRUE(j.at("missing").empty());
   for (const char* picture : {"eee.png", "eeee.png"}) {
     EXPECT_TRUE(fs::exists(folder / picture)) << picture;

@@ -30,7 +30,7 @@ namespace fs = std::filesystem;
 class VtkExport : public testing::Test {
  protected:
   VtkExport()
-      : scene_(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/cornell.obj")),
+      : scene_(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj")),
         skeleton_(build_skeleton(scene_)) {
     std::string pattern = (fs::temp_directory_path() / "sightline-vtk-XXXXXX").string();
     folder_ = mkdtemp(pattern.data());
@@ -127,13 +127,13 @@ TEST_F(VtkExport, EeeBlocksHaveTheirArrays) {
 TEST_F(VtkExport, SavedSkeletonIsReadBackWhole) {
   {
     OutputFile file(folder_ / "skeleton.json");
-    const Json head{{"scene", {{"file", "cornell.obj"}}}, {"complete", true}};
+    const Json head{{"scene", {{"file", "room.obj"}}}, {"complete", true}};
     write_skeleton_json(file.stream(), head, scene_, skeleton_, nullptr);
     file.commit();
   }
   const StoredSkeleton stored = read_skeleton_json((folder_ / "skeleton.json").string());
   check_fits(stored, scene_);
-  EXPECT_EQ(stored.scene_file, "cornell.obj");
+  EXPECT_EQ(stored.scene_file, "room.obj");
   const Skeleton& back = stored.skeleton;
   ASSERT_EQ(back.nodes.size(), skeleton_.nodes.size());
   for (std::size_t i = 0; i < back.nodes.size(); ++i) {
