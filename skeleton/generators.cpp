@@ -19,13 +19,13 @@ Box box_of_face(const Scene& scene, int face) {
   return box_of(points);
 }
 
-Bvh tree_over_faces(const Scene& scene) {
+std::vector<Box> boxes_of_faces(const Scene& scene) {
   std::vector<Box> boxes;
   boxes.reserve(scene.faces().size());
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
     boxes.push_back(box_of_face(scene, static_cast<int>(f)));
   }
-  return Bvh(boxes);
+  return boxes;
 }
 
 bool has_point(const Scene& scene, int face, int point) {
@@ -201,7 +201,8 @@ Rational InPlaneSide::value(const Point& p, const Point& q, const Point& x) cons
 
 Generators::Generators(const Scene& scene, int /*threads*/)
     : scene_(&scene),
-      face_tree_(tree_over_faces(scene)),
+      face_boxes_(boxes_of_faces(scene)),
+      face_tree_(face_boxes_),
       ridge_tree_(std::vector<Box>{}) {
   face_planes_.reserve(scene.faces().size());
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
@@ -223,8 +224,6 @@ Generators::Generators(const Scene& scene, int /*threads*/)
   find_stars();
   find_inside();
 }
-
-Box Generators::face_box(int face) const { return box_of_face(*scene_, face); }
 
 void Generators::find_convex_solids() {
   const Scene& s = *scene_;

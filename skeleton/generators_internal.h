@@ -89,7 +89,7 @@ class Generators {
   /// Over ridges(); leaves hold ridge numbers.
   [[nodiscard]] const Bvh& ridge_tree() const { return ridge_tree_; }
   [[nodiscard]] const PlaneSide& face_plane(int face) const { return face_planes_[face]; }
-  [[nodiscard]] Box face_box(int face) const;
+  [[nodiscard]] const Box& face_box(int face) const { return face_boxes_[face]; }
 
  private:
   void find_convex_solids();
@@ -99,6 +99,7 @@ class Generators {
   void find_inside();
 
   const Scene* scene_;
+  std::vector<Box> face_boxes_;
   Bvh face_tree_;
   Bvh ridge_tree_;
   std::vector<PlaneSide> face_planes_;

@@ -583,7 +583,7 @@ bool VertexViewer::touching_across(const Pair& pair) const {
     (front ? above : below).push_back(face);
   }
   for (const int f : above) {
-    const Box box = g_.face_box(f);
+    const Box& box = g_.face_box(f);
     const int object = scene_.faces()[f].object;
     for (const int h : below) {
       if (scene_.faces()[h].object == object && g_.convex_solid(object)) continue;
