@@ -28,7 +28,8 @@ figure { margin:14px 0; background:var(--card); border:1px solid var(--line);
   border-radius:10px; overflow:hidden; }
 figure img { display:block; width:100%; height:auto; }
 figcaption { padding:10px 16px 12px; border-top:1px solid var(--line); }
-h1, figcaption, td, th { overflow-wrap:anywhere; }
+h1, figcaption { overflow-wrap:anywhere; }
+td, th { overflow-wrap:break-word; }
 .pair { display:grid; grid-template-columns:repeat(auto-fit,minmax(320px,1fr)); gap:14px; }
 .pair figure { margin:0; }
 table { border-collapse:collapse; width:100%; background:var(--card);
