@@ -1,14 +1,13 @@
 // Where the view of a scene changes: its EV skeleton, counted by kind, and one arc
 // with its corner and edge.  One task, top to bottom.
 
-#include "skeleton/skeleton.h"
-
 #include <cstdio>
 #include <map>
 #include <string>
 
 #include "linespace/mesh_io.h"
 #include "linespace/scene.h"
+#include "skeleton/skeleton.h"
 
 int main(int argc, char** argv) {
   // A file becomes a scene once, validated; from then on it is immutable.

@@ -150,7 +150,8 @@ class Checker {
       case CoverNode::Kind::HalveTo:
         return halve(node, a, b);
       case CoverNode::Kind::Blocked:
-        if (!contradicted_ && !blocked(pair_.blockers[node.index], a, b)) fail("not blocked");
+        if (!contradicted_ && !blocked(pair_.blockers[node.index], a, b))
+          fail("not blocked");
         return;
       case CoverNode::Kind::Empty:
         if (!contradicted_ && !empty(node, a, b)) fail("not proved empty");

@@ -1,11 +1,10 @@
 // The EV skeleton and its lines on small scenes whose answers are known by hand.
 
-#include "skeleton/skeleton.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
+#include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/generators.h"
 
