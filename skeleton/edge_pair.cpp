@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/node_contacts_internal.h"
@@ -25,142 +24,7 @@ bool share(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
   });
 }
 
-// Conservative test of boxes against the hull of two segments: separated along some
-// direction, however that was computed.
-class PairShaft {
- public:
-  PairShaft(const Point& p0, const Point& p1, const Point& q0, const Point& q1)
-      : origin_(p0), corners_{Point::Zero(), p1 - p0, q0 - p0, q1 - p0} {
-    for (int i = 0; i < 3; ++i) {
-      min_[i] = std::min(std::min(p0[i], p1[i]), std::min(q0[i], q1[i]));
-      max_[i] = std::max(std::max(p0[i], p1[i]), std::max(q0[i], q1[i]));
-    }
-    const Point& p = corners_[1];
-    const Point& q = corners_[2];
-    const Point& r = corners_[3];
-    add(p.cross(q));
-    add(p.cross(r));
-    add(q.cross(r));
-    add((q - p).cross(r - p));
-    const Point long_edges[] = {q, r, q - p, r - p};
-    for (const Point& e : long_edges) {
-      add({0, -e[2], e[1]});
-      add({e[2], 0, -e[0]});
-      add({-e[1], e[0], 0});
-    }
-  }
-
-  [[nodiscard]] bool may_meet(const Box& box) const {
-    std::array<double, 3> c, h;
-    for (int i = 0; i < 3; ++i) {
-      if (box.min[i] > max_[i] || box.max[i] < min_[i]) return false;
-      const double centre = 0.5 * (box.min[i] + box.max[i]);
-      // 16 e covers the roundings of centre, its offset, the products and the sums.
-      h[i] = std::max(box.max[i] - centre, centre - box.min[i]);
-      c[i] = centre - origin_[i];
-      h[i] += 16 * kUnitRoundoff * (std::abs(c[i]) + h[i]);
-    }
-    for (int k = 0; k < count_; ++k) {
-      const Axis& axis = axes_[k];
-      double at = 0;
-      double radius = 0;
-      for (int i = 0; i < 3; ++i) {
-        at += axis.direction[i] * c[i];
-        radius += std::abs(axis.direction[i]) * h[i];
-      }
-      if (at - radius > axis.max || at + radius < axis.min) return false;
-    }
-    return true;
-  }
-
- private:
-  struct Axis {
-    Point direction;
-    double min, max;
-  };
-  void add(const Point& m) {
-    double low = 0;
-    double high = 0;
-    double error = 0;
-    for (const Point& x : corners_) {
-      double at = 0;
-      double size = 0;
-      for (int i = 0; i < 3; ++i) {
-        at += m[i] * x[i];
-        size += std::abs(m[i] * x[i]);
-      }
-      low = std::min(low, at);
-      high = std::max(high, at);
-      error = std::max(error, size);
-    }
-    error *= 16 * kUnitRoundoff;
-    axes_[count_++] = {m, low - error, high + error};
-  }
-
-  Point origin_;
-  std::array<Point, 4> corners_;
-  std::array<double, 3> min_, max_;
-  std::array<Axis, 16> axes_;
-  int count_ = 0;
-};
-
 }  // namespace
-
-Carriers::Carriers(const Generators& g) {
-  const Scene& scene = g.scene();
-  std::unordered_map<std::uint64_t, std::int32_t> known;
-  const auto key = [](std::int32_t p, std::int32_t q) {
-    return (static_cast<std::uint64_t>(std::min(p, q)) << 32) |
-           static_cast<std::uint32_t>(std::max(p, q));
-  };
-  const auto carrier_of = [&](std::int32_t p, std::int32_t q, std::int32_t edge) {
-    const auto [at, fresh] =
-        known.try_emplace(key(p, q), static_cast<std::int32_t>(all.size()));
-    if (fresh) {
-      all.push_back({{std::min(p, q), std::max(p, q)}, edge});
-      ridge.push_back(edge >= 0 ? g.ridge_of_edge(edge) : -1);
-    }
-    return at->second;
-  };
-  std::vector<std::int32_t> of_edge;
-  for (std::size_t e = 0; e < scene.edges().size(); ++e) {
-    const auto& points = scene.edges()[e].points;
-    of_edge.push_back(carrier_of(points[0], points[1], static_cast<std::int32_t>(e)));
-  }
-  for (const Ridge& r : g.ridges()) of_ridge.push_back(of_edge[r.edge]);
-  starts.push_back(0);
-  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
-    const auto corners = scene.face_points(static_cast<int>(f));
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const int p = corners[k];
-      const int q = corners[(k + 1) % corners.size()];
-      const int edge = scene.edge_of_side(static_cast<int>(f), static_cast<int>(k));
-      const std::int32_t c = edge >= 0 ? of_edge[edge] : carrier_of(p, q, -1);
-      // An edge may be longer than the side, and its ends in the other order.
-      const Point d = scene.point(q) - scene.point(p);
-      const Point along = scene.point(all[c].points[1]) - scene.point(all[c].points[0]);
-      int axis = 0;
-      d.cwiseAbs().maxCoeff(&axis);
-      sides.push_back({c, (d[axis] > 0) == (along[axis] > 0)});
-    }
-    starts.push_back(static_cast<std::int32_t>(sides.size()));
-  }
-  touched_facets.assign(scene.facets().size(), 0);
-  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
-    for (const Side& side : of_face(static_cast<int>(f))) {
-      if (all[side.carrier].edge < 0) continue;
-      const int r = ridge[side.carrier];
-      if (r < 0 || g.ridges()[r].touched) touched_facets[scene.faces()[f].facet] = 1;
-    }
-  }
-  for (const Object& object : scene.objects()) {
-    std::vector<Point> points;
-    for (const int f : object.faces) {
-      for (const int p : scene.face_points(f)) points.push_back(scene.point(p));
-    }
-    object_boxes.push_back(points.empty() ? Box{} : box_of(points));
-  }
-}
 
 EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
                      const EeeSelection& selection)
@@ -355,7 +219,7 @@ bool EdgePairs::gather(int i, int j) {
   ++pair_stamp_;
   const Point& q0 = scene_.point(last.points[0]);
   const Point& q1 = scene_.point(last.points[1]);
-  const PairShaft shaft(p0_, p1_, q0, q1);
+  const Shaft shaft(p0_, p1_, q0, q1);
   bool hidden = false;
   g_.face_tree().traverse(
       [&](const Box& box) { return !hidden && shaft.may_meet(box); },

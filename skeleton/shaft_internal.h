@@ -1,4 +1,4 @@
-// Conservative box tests in double: against the triangle between a vertex and an edge,
+// Conservative box tests in double: against the hull of a vertex or an edge and an edge,
 // and against the shadow of a convex occluder.  "Outside" and "inside" are proofs, valid
 // whatever the rounding; "maybe" costs only time.
 
@@ -103,40 +103,56 @@ inline BoundedPlane plane_seen_from(const Point& origin, const Point& a, const P
   return plane;
 }
 
-/// The set of lines' common triangle: from a vertex to an edge.
+/// The hull of a vertex and an edge, or of two edges: all segments between the two.
 class Shaft {
  public:
-  Shaft(const Point& v, const Point& e0, const Point& e1) : v_(v) {
-    const Point u = e0 - v;
-    const Point w = e1 - v;
-    for (int i = 0; i < 3; ++i) {
-      min_[i] = std::min(v[i], std::min(e0[i], e1[i]));
-      max_[i] = std::max(v[i], std::max(e0[i], e1[i]));
-    }
+  Shaft(const Point& v, const Point& e0, const Point& e1)
+      : origin_(v), corners_{Point::Zero(), e0 - v, e1 - v, e1 - v} {
+    bound({v, e0, e1, e1});
+    const Point& u = corners_[1];
+    const Point& w = corners_[2];
     const Point n = u.cross(w);
-    add_axis(n, u, w);
-    add_axis(n.cross(u), u, w);
-    add_axis(n.cross(w), u, w);
-    add_axis(n.cross(w - u), u, w);
+    add_axis(n);
+    add_axis(n.cross(u));
+    add_axis(n.cross(w));
+    add_axis(n.cross(w - u));
   }
 
-  /// False proves that no point of the closed box lies in the closed triangle.
+  Shaft(const Point& p0, const Point& p1, const Point& q0, const Point& q1)
+      : origin_(p0), corners_{Point::Zero(), p1 - p0, q0 - p0, q1 - p0} {
+    bound({p0, p1, q0, q1});
+    const Point& p = corners_[1];
+    const Point& q = corners_[2];
+    const Point& r = corners_[3];
+    add_axis(p.cross(q));
+    add_axis(p.cross(r));
+    add_axis(q.cross(r));
+    add_axis((q - p).cross(r - p));
+    for (const Point& e : {q, r, Point(q - p), Point(r - p)}) {
+      add_axis({0, -e[2], e[1]});
+      add_axis({e[2], 0, -e[0]});
+      add_axis({-e[1], e[0], 0});
+    }
+  }
+
+  /// False proves that no point of the closed box lies in the closed hull.
   [[nodiscard]] bool may_meet(const Box& box) const {
     std::array<double, 3> c, h;
     for (int i = 0; i < 3; ++i) {
       if (box.min[i] > max_[i] || box.max[i] < min_[i]) return false;
       const double centre = 0.5 * (box.min[i] + box.max[i]);
       h[i] = std::max(box.max[i] - centre, centre - box.min[i]);
-      c[i] = centre - v_[i];
+      c[i] = centre - origin_[i];
+      // 16 e covers the roundings of centre, its offset, the products and the sums.
+      h[i] += 16 * kUnitRoundoff * (std::abs(c[i]) + h[i]);
     }
-    for (const Axis& axis : axes_) {
+    for (int k = 0; k < count_; ++k) {
+      const Axis& axis = axes_[k];
       double middle = 0;
       double radius = 0;
       for (int i = 0; i < 3; ++i) {
-        const double m = std::abs(axis.direction[i]);
         middle += axis.direction[i] * c[i];
-        // 16 e covers the roundings of c, h, the products and the sums.
-        radius += m * (h[i] + 16 * kUnitRoundoff * (std::abs(c[i]) + h[i]));
+        radius += std::abs(axis.direction[i]) * h[i];
       }
       if (middle - radius > axis.max || middle + radius < axis.min) return false;
     }
@@ -150,22 +166,39 @@ class Shaft {
     double min, max;
   };
 
-  void add_axis(const Point& m, const Point& u, const Point& w) {
-    double pu = 0, pw = 0, eu = 0, ew = 0;
+  void bound(const std::array<Point, 4>& points) {
     for (int i = 0; i < 3; ++i) {
-      pu += m[i] * u[i];
-      pw += m[i] * w[i];
-      eu += std::abs(m[i] * u[i]);
-      ew += std::abs(m[i] * w[i]);
+      min_[i] = max_[i] = points[0][i];
+      for (const Point& p : points) {
+        min_[i] = std::min(min_[i], p[i]);
+        max_[i] = std::max(max_[i], p[i]);
+      }
     }
-    const double error = 16 * kUnitRoundoff * std::max(eu, ew);
-    axes_[count_++] = {m, std::min(0.0, std::min(pu, pw)) - error,
-                       std::max(0.0, std::max(pu, pw)) + error};
   }
 
-  Point v_;
+  void add_axis(const Point& m) {
+    double low = 0;
+    double high = 0;
+    double largest = 0;
+    for (const Point& x : corners_) {
+      double at = 0;
+      double size = 0;
+      for (int i = 0; i < 3; ++i) {
+        at += m[i] * x[i];
+        size += std::abs(m[i] * x[i]);
+      }
+      low = std::min(low, at);
+      high = std::max(high, at);
+      largest = std::max(largest, size);
+    }
+    const double error = 16 * kUnitRoundoff * largest;
+    axes_[count_++] = {m, low - error, high + error};
+  }
+
+  Point origin_;
+  std::array<Point, 4> corners_;  // relative to the origin
   std::array<double, 3> min_, max_;
-  std::array<Axis, 4> axes_;
+  std::array<Axis, 16> axes_;
   int count_ = 0;
 };
 
