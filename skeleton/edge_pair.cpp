@@ -35,7 +35,10 @@ EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
       facet_stamp_(scene_.facets().size(), 0),
       shadow_index_(
           scene_.objects().size() + scene_.facets().size() + scene_.faces().size(), -2),
+      face_stamp_(scene_.faces().size(), 0),
+      face_planes_(scene_.faces().size()),
       middle_stamp_(generators.ridges().size(), 0),
+      middle_allowed_(generators.ridges().size(), 0),
       form_stamp_(carriers.all.size(), 0),
       forms_(carriers.all.size()),
       point_stamp_(scene_.points().size(), 0),
@@ -106,9 +109,7 @@ bool EdgePairs::hidden(const Box& box) {
   const int index = shadow_of(face);
   if (index < 0) return false;
   if (std::find(recent_.begin(), recent_.end(), index) != recent_.end()) return false;
-  constexpr std::size_t kRecent = 16;
-  if (recent_.size() >= kRecent) recent_.pop_back();
-  recent_.insert(recent_.begin(), index);
+  remember(index);
   const auto& s = shadows_[index];
   return s[0].hides(c0, b.half) && s[1].hides(c1, b.half);
 }
@@ -186,18 +187,18 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   outer.last = j;
   const Point& q0 = scene_.point(s.points[0]);
   const Point& q1 = scene_.point(s.points[1]);
-  outer.first_planes = {values(r.a, q0, q1), values(r.b, q0, q1)};
-  outer.last_planes = {values(s.a, p0_, p1_), values(s.b, p0_, p1_)};
   // A line grazes an edge iff the other point is not on the same side of both planes.
   const auto never_grazes = [](const std::array<PlaneValues, 2>& v) {
     return v[0].sign0 == v[0].sign1 && v[1].sign0 == v[1].sign1 &&
            v[0].sign0 == v[1].sign0 && v[0].sign0 != Sign::Zero;
   };
-  if (never_grazes(outer.first_planes) || never_grazes(outer.last_planes)) return;
+  outer.first_planes = {values(r.a, q0, q1), values(r.b, q0, q1)};
+  if (never_grazes(outer.first_planes)) return;
+  outer.last_planes = {values(s.a, p0_, p1_), values(s.b, p0_, p1_)};
+  if (never_grazes(outer.last_planes)) return;
   if (share_facet(r, s)) return;
   if (hidden_edge(s)) return;
-  if (!gather(i, j)) return;
-  if (middles_.empty()) return;
+  if (!gather(outer)) return;
   visit_middles(outer, false, out);
   // Where the middle edge and the last are coplanar, s is constant: the other way round.
   Outer turned;
@@ -209,61 +210,108 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   visit_middles(turned, true, out);
 }
 
-// Faces and ridges that may meet a segment between the two; false when one of them hides
-// all of these.
-bool EdgePairs::gather(int i, int j) {
+// Faces that may meet a segment between the two edges, and the middle edges among their
+// sides; false when there are none.
+bool EdgePairs::gather(const Outer& outer) {
+  const int i = outer.first;
+  const int j = outer.last;
   const Ridge& first = g_.ridges()[i];
   const Ridge& last = g_.ridges()[j];
   faces_.clear();
-  middles_.clear();
   ++pair_stamp_;
-  const Point& q0 = scene_.point(last.points[0]);
-  const Point& q1 = scene_.point(last.points[1]);
-  const Shaft shaft(p0_, p1_, q0, q1);
-  bool hidden = false;
-  g_.face_tree().traverse(
-      [&](const Box& box) { return !hidden && shaft.may_meet(box); },
-      [&](std::uint32_t item) {
-        if (hidden) return;
-        const int face = static_cast<int>(item);
-        if (!shaft.may_meet(g_.face_box(face))) return;
-        faces_.push_back(face);
-        const int object = scene_.faces()[face].object;
-        if (g_.convex_solid(object) && share(std::span(&object, 1), last.objects)) return;
-        const int shadow = shadow_of(face);
-        hidden = shadow >= 0 && hides(shadow, q0, q1);
-        if (hidden &&
-            std::find(recent_.begin(), recent_.end(), shadow) == recent_.end()) {
-          recent_.insert(recent_.begin(), shadow);
-          if (recent_.size() > 16) recent_.pop_back();
-        }
-      });
-  if (hidden) return false;
-  const bool outer_through = selection_.goes_through(i) || selection_.goes_through(j);
+  const Shaft shaft(p0_, p1_, scene_.point(last.points[0]), scene_.point(last.points[1]));
+  g_.face_tree().traverse([&](const Box& box) { return shaft.may_meet(box); },
+                          [&](std::uint32_t item) {
+                            const int face = static_cast<int>(item);
+                            if (shaft.may_meet(g_.face_box(face))) faces_.push_back(face);
+                          });
+  const auto linear = [](const PlaneValues& v) {
+    return PairCells::Linear{v.at0.value, v.at1.value, std::max(v.at0.error, v.at1.error),
+                             v.sign0 == Sign::Zero, v.sign1 == Sign::Zero};
+  };
+  cells_.begin({linear(outer.first_planes[0]), linear(outer.first_planes[1])},
+               {linear(outer.last_planes[0]), linear(outer.last_planes[1])},
+               (p1_ - p0_).norm(),
+               (scene_.point(last.points[1]) - scene_.point(last.points[0])).norm());
   for (const int face : faces_) {
-    const auto& object = scene_.faces()[face].object;
-    if (g_.convex_solid(object) && (share(std::span(&object, 1), first.objects) ||
-                                    share(std::span(&object, 1), last.objects))) {
+    if (is_of(first, face) || is_of(last, face)) continue;
+    const auto& [p, q] = planes_of(outer, face);
+    if (p.sign0 == p.sign1 && p.sign0 == q.sign0 && p.sign0 == q.sign1 &&
+        p.sign0 != Sign::Zero) {
       continue;
     }
+    const bool front_only = enters_only(face);
+    if (front_only && p.sign0 == Sign::Negative && p.sign1 == Sign::Negative) continue;
+    cell_sides_.clear();
     for (const auto& side : carriers_.of_face(face)) {
-      const int m = carriers_.ridge[side.carrier];
-      if (m < 0 || middle_stamp_[m] == pair_stamp_) continue;
-      middle_stamp_[m] = pair_stamp_;
-      const Ridge& ridge = g_.ridges()[m];
-      if (&ridge == &first || &ridge == &last) continue;
-      if (share_facet(ridge, first) || share_facet(ridge, last)) continue;
-      const bool own = std::any_of(
-          ridge.objects.begin(), ridge.objects.end(), [&](const std::int32_t& o) {
-            return g_.convex_solid(o) && (share(std::span(&o, 1), first.objects) ||
-                                          share(std::span(&o, 1), last.objects));
-          });
-      if (!own && selection_.has(m) && (outer_through || selection_.goes_through(m))) {
-        middles_.push_back(m);
-      }
+      cell_sides_.push_back(
+          {&form_of(outer, side.carrier), carriers_.ridge[side.carrier], side.forward});
     }
+    cells_.add_face(face, occluder_key(g_, face), front_only, linear(p), linear(q),
+                    cell_sides_);
   }
-  return true;
+  const bool outer_through = selection_.goes_through(i) || selection_.goes_through(j);
+  cells_.divide([&](int m) {
+    if (middle_stamp_[m] == pair_stamp_) return middle_allowed_[m] != 0;
+    middle_stamp_[m] = pair_stamp_;
+    const Ridge& ridge = g_.ridges()[m];
+    const bool own = std::any_of(
+        ridge.objects.begin(), ridge.objects.end(), [&](const std::int32_t& o) {
+          return g_.convex_solid(o) && (share(std::span(&o, 1), first.objects) ||
+                                        share(std::span(&o, 1), last.objects));
+        });
+    middle_allowed_[m] = !own && &ridge != &first && &ridge != &last &&
+                         selection_.has(m) &&
+                         (outer_through || selection_.goes_through(m)) &&
+                         !share_facet(ridge, first) && !share_facet(ridge, last);
+    return middle_allowed_[m] != 0;
+  });
+  if (cells_.hidden_by() >= 0) remember(shadow_of(cells_.hidden_by()));
+  return !cells_.middles().empty();
+}
+
+void EdgePairs::remember(int shadow) {
+  constexpr std::size_t kRecent = 16;
+  if (shadow < 0) return;
+  if (std::find(recent_.begin(), recent_.end(), shadow) != recent_.end()) return;
+  if (recent_.size() >= kRecent) recent_.pop_back();
+  recent_.insert(recent_.begin(), shadow);
+}
+
+// A line that supports there does not meet the face elsewhere: of its convex solid, or in
+// the plane of a face at the edge.
+bool EdgePairs::is_of(const Ridge& ridge, int face) const {
+  const Face& f = scene_.faces()[face];
+  if (std::find(ridge.objects.begin(), ridge.objects.end(), f.object) ==
+      ridge.objects.end()) {
+    return false;
+  }
+  if (g_.convex_solid(f.object)) return true;
+  const auto& sides = scene_.edges()[ridge.edge].sides;
+  return std::any_of(sides.begin(), sides.end(), [&](const Edge::Side& side) {
+    return scene_.faces()[side.face].facet == f.facet;
+  });
+}
+
+// From the first edge, outside a closed solid, a segment must enter it.
+bool EdgePairs::enters_only(int face) const {
+  const int object = scene_.faces()[face].object;
+  return scene_.objects()[object].closed &&
+         !boxes_meet(carriers_.object_boxes[object], first_box_);
+}
+
+// The face's plane along the first and the last edge.
+const std::array<EdgePairs::PlaneValues, 2>& EdgePairs::planes_of(const Outer& outer,
+                                                                  int face) {
+  auto& both = face_planes_[face];
+  if (face_stamp_[face] != pair_stamp_) {
+    face_stamp_[face] = pair_stamp_;
+    const PlaneSide& plane = g_.face_plane(face);
+    const auto& o = outer.points;
+    both = {values(plane, o.at(o.p[0]), o.at(o.p[1])),
+            values(plane, o.at(o.q[0]), o.at(o.q[1]))};
+  }
+  return both;
 }
 
 const BoundedForm& EdgePairs::form_of(const Outer& outer, int carrier) {
@@ -290,7 +338,7 @@ const BoundedLinear& EdgePairs::beside_last(const Outer& outer, int point) {
 void EdgePairs::visit_middles(const Outer& outer, bool turned,
                               std::vector<FoundArc>& out) {
   bool fresh = !turned;
-  for (const int m : middles_) {
+  for (const int m : cells_.middles()) {
     const Ridge& r = g_.ridges()[m];
     const auto& last = g_.ridges()[outer.last].points;
     const auto& first = g_.ridges()[outer.first].points;
@@ -308,11 +356,12 @@ void EdgePairs::visit_middles(const Outer& outer, bool turned,
       ++pair_stamp_;
       fresh = true;
     }
-    visit_curve(outer, m, out);
+    visit_curve(outer, m, turned, out);
   }
 }
 
-void EdgePairs::visit_curve(const Outer& outer, int middle, std::vector<FoundArc>& out) {
+void EdgePairs::visit_curve(const Outer& outer, int middle, bool turned,
+                            std::vector<FoundArc>& out) {
   const Ridge& r = g_.ridges()[middle];
   const int carrier = carriers_.of_ridge[middle];
   const BoundedLinear& w0 = beside_last(outer, r.points[0]);
@@ -324,8 +373,12 @@ void EdgePairs::visit_curve(const Outer& outer, int middle, std::vector<FoundArc
   find_stretches(outer, r, curve, degenerate);
   for (std::size_t i = 0; i < stretches_.size(); ++i) {
     const Stretch stretch = stretches_[i];
+    if (!cells_.faces_along(curve.form(), turned, stretch.part.from.lo,
+                            stretch.part.to.hi, blockers_)) {
+      continue;
+    }
     bool covered = false;
-    find_blocked(outer, r, curve, stretch.part, stretch.f0, covered, degenerate);
+    find_blocked(outer, r, curve, stretch.part, stretch.f0, turned, covered, degenerate);
     if (covered) continue;
     for (const CurveInterval& open : open_parts(curve, stretch.part)) {
       if (!degenerate) {
@@ -561,40 +614,26 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
 }
 
 bool EdgePairs::skips(const Outer& outer, const Ridge& middle, int face) const {
-  const Face& f = scene_.faces()[face];
-  for (const Ridge* r : {&g_.ridges()[outer.first], &middle, &g_.ridges()[outer.last]}) {
-    if (std::find(r->objects.begin(), r->objects.end(), f.object) == r->objects.end()) {
-      continue;
-    }
-    // A line that supports a convex solid does not meet it elsewhere.
-    if (g_.convex_solid(f.object)) return true;
-    for (const Edge::Side& side : scene_.edges()[r->edge].sides) {
-      if (scene_.faces()[side.face].facet == f.facet) return true;
-    }
-  }
-  return false;
+  return is_of(g_.ridges()[outer.first], face) || is_of(middle, face) ||
+         is_of(g_.ridges()[outer.last], face);
 }
 
 void EdgePairs::find_blocked(const Outer& outer, const Ridge& middle,
                              const EeeCurve& curve, const CurveInterval& stretch, Sign f0,
-                             bool& covered, bool& degenerate) {
+                             bool turned, bool& covered, bool& degenerate) {
   closed_.clear();
-  for (std::size_t i = 0; i < faces_.size(); ++i) {
-    const int face = faces_[i];
-    if (skips(outer, middle, face)) continue;
+  for (std::size_t i = 0; i < blockers_.size(); ++i) {
+    const int face = blockers_[i];
+    if (is_of(middle, face)) continue;
     const std::size_t before = closed_.size();
-    const int object = scene_.faces()[face].object;
-    // From outside a closed solid a segment must enter it.
-    const bool enters_only = scene_.objects()[object].closed &&
-                             !boxes_meet(carriers_.object_boxes[object], first_box_);
-    block(outer, curve, face, stretch, f0, Sign::Positive, degenerate);
-    if (!enters_only) {
-      block(outer, curve, face, stretch, f0, Sign::Negative, degenerate);
+    const Sign entry = turned ? Sign::Negative : Sign::Positive;
+    block(outer, curve, face, stretch, f0, entry, degenerate);
+    if (!enters_only(face)) {
+      block(outer, curve, face, stretch, f0, -entry, degenerate);
     }
     for (std::size_t k = before; k < closed_.size(); ++k) {
       if (closed_[k].from.same_as(stretch.from) && closed_[k].to.same_as(stretch.to)) {
         covered = true;
-        std::swap(faces_[i], faces_[i / 2]);  // earlier the next time
         return;
       }
     }
@@ -606,11 +645,8 @@ void EdgePairs::find_blocked(const Outer& outer, const Ridge& middle,
 void EdgePairs::block(const Outer& outer, const EeeCurve& curve, int face,
                       const CurveInterval& stretch, Sign f0, Sign entry,
                       bool& degenerate) {
-  const PlaneSide& plane = g_.face_plane(face);
-  const auto& o = outer.points;
-  const PlaneValues p = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+  const auto& [p, q] = planes_of(outer, face);
   if (p.sign0 != entry && p.sign1 != entry) return;
-  const PlaneValues q = values(plane, o.at(o.q[0]), o.at(o.q[1]));
   if (q.sign0 != -entry && q.sign1 != -entry) return;
   parts_.assign(1, stretch);
   const int facet = scene_.faces()[face].facet;

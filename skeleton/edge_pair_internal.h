@@ -11,6 +11,7 @@
 #include "skeleton/carriers_internal.h"
 #include "skeleton/eee_curve_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/pair_cells_internal.h"
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
 
@@ -78,13 +79,18 @@ class EdgePairs {
   [[nodiscard]] bool hidden_edge(const Ridge& last);
   void visit_pair(int i, int j, std::vector<FoundArc>& out);
   [[nodiscard]] bool share_facet(const Ridge& a, const Ridge& b) const;
-  [[nodiscard]] bool gather(int i, int j);
+  [[nodiscard]] bool gather(const Outer& outer);
+  void remember(int shadow);
+  [[nodiscard]] bool is_of(const Ridge& ridge, int face) const;
+  [[nodiscard]] bool enters_only(int face) const;
+  [[nodiscard]] const std::array<PlaneValues, 2>& planes_of(const Outer& outer, int face);
   void visit_middles(const Outer& outer, bool turned, std::vector<FoundArc>& out);
-  void visit_curve(const Outer& outer, int middle, std::vector<FoundArc>& out);
+  void visit_curve(const Outer& outer, int middle, bool turned,
+                   std::vector<FoundArc>& out);
   void find_stretches(const Outer& outer, const Ridge& middle, const EeeCurve& curve,
                       bool& degenerate);
   void find_blocked(const Outer& outer, const Ridge& middle, const EeeCurve& curve,
-                    const CurveInterval& stretch, Sign f0, bool& covered,
+                    const CurveInterval& stretch, Sign f0, bool turned, bool& covered,
                     bool& degenerate);
   void block(const Outer& outer, const EeeCurve& curve, int face,
              const CurveInterval& stretch, Sign f0, Sign entry, bool& degenerate);
@@ -125,15 +131,20 @@ class EdgePairs {
 
   // The pair at hand.
   std::vector<std::int32_t> faces_;
-  std::vector<std::int32_t> middles_;
   std::uint32_t pair_stamp_ = 0;
+  std::vector<std::uint32_t> face_stamp_;
+  std::vector<std::array<PlaneValues, 2>> face_planes_;
+  PairCells cells_;
+  std::vector<PairCells::Side> cell_sides_;
   std::vector<std::uint32_t> middle_stamp_;
+  std::vector<std::uint8_t> middle_allowed_;
   std::vector<std::uint32_t> form_stamp_;
   std::vector<BoundedForm> forms_;
   std::vector<std::uint32_t> point_stamp_;
   std::vector<BoundedLinear> beside_last_;
 
   // The curve at hand.
+  std::vector<std::int32_t> blockers_;
   struct Constraint {
     BoundedLinear values;
     CurveCut cut;

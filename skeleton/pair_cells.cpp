@@ -1,0 +1,257 @@
+#include <algorithm>
+#include <cmath>
+
+#include "skeleton/pair_cells_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+constexpr double kU = std::numeric_limits<double>::epsilon() / 2;
+// A cell is left whole after so many halvings when so few faces are left: speed only.
+constexpr int kDeepest = 12;
+std::size_t few_faces(int depth) { return depth < 6 ? 3 : depth < kDeepest ? 8 : ~0u; }
+
+Sign certain_sign(double value, double error) {
+  return value > error ? Sign::Positive : value < -error ? Sign::Negative : Sign::Zero;
+}
+
+// Certain signs at some positions; `neutral`: where the value is zero exactly, at an end
+// of an edge.
+template <std::size_t N>
+struct Signs {
+  std::array<Sign, N> at;
+  unsigned neutral = 0;
+
+  /// The sign of all that are not neutral, Zero when they differ or are not certain.
+  [[nodiscard]] Sign common() const {
+    Sign all = Sign::Zero;
+    for (unsigned i = 0; i < N; ++i) {
+      if ((neutral >> i & 1u) != 0) continue;
+      if (at[i] == Sign::Zero || (all != Sign::Zero && at[i] != all)) return Sign::Zero;
+      all = at[i];
+    }
+    return all;
+  }
+};
+
+// Positions are multiples of 2^-kDeepest, so each value is off by three roundings beside
+// the error of the ends.
+Signs<2> signs(const PairCells::Linear& l, double x0, double x1) {
+  const double d = l.at1 - l.at0;
+  const double error = l.error + 4 * kU * (std::abs(l.at0) + std::abs(l.at1));
+  Signs<2> out{
+      {certain_sign(l.at0 + d * x0, error), certain_sign(l.at0 + d * x1, error)}};
+  if (l.zero0 && x0 == 0) out.neutral |= 1;
+  if (l.zero1 && x1 == 1) out.neutral |= 2;
+  return out;
+}
+
+// Zero exactly, as both or one of the values it is interpolated from.
+bool vanishes(const BoundedForm& form, double s, double t) {
+  const auto& z = form.zero;
+  const auto between = [](double x, bool at0, bool at1) {
+    return x == 0 ? at0 : x == 1 ? at1 : at0 && at1;
+  };
+  if (s == 0) return between(t, z[0][0], z[0][1]);
+  if (s == 1) return between(t, z[1][0], z[1][1]);
+  if (t == 0) return z[0][0] && z[1][0];
+  return t == 1 && z[0][1] && z[1][1];
+}
+
+// Signs of a form at the corners (s0, t0), (s0, t1), (s1, t0), (s1, t1).  Two rounds of
+// interpolation, of three roundings each.
+Signs<4> signs(const BoundedForm& form, double s0, double s1, double t0, double t1) {
+  const auto& f = form.f;
+  const double d0 = f[0][1] - f[0][0];
+  const double d1 = f[1][1] - f[1][0];
+  const double low0 = f[0][0] + d0 * t0;
+  const double low1 = f[0][0] + d0 * t1;
+  const double up0 = (f[1][0] + d1 * t0) - low0;
+  const double up1 = (f[1][0] + d1 * t1) - low1;
+  const double error = form.error + 24 * kU * form.largest;
+  Signs<4> out{
+      {certain_sign(low0 + up0 * s0, error), certain_sign(low1 + up1 * s0, error),
+       certain_sign(low0 + up0 * s1, error), certain_sign(low1 + up1 * s1, error)}};
+  for (unsigned c = 0; c < 4; ++c) {
+    if (out.at[c] == Sign::Zero &&
+        vanishes(form, (c & 2u) != 0 ? s1 : s0, (c & 1u) != 0 ? t1 : t0)) {
+      out.neutral |= 1u << c;
+    }
+  }
+  return out;
+}
+
+// On neither side of the wedge's planes a line can graze.
+bool never_grazes(const std::array<PairCells::Linear, 2>& planes, double x0, double x1) {
+  const Sign a = signs(planes[0], x0, x1).common();
+  return a != Sign::Zero && a == signs(planes[1], x0, x1).common();
+}
+
+}  // namespace
+
+void PairCells::begin(const std::array<Linear, 2>& first,
+                      const std::array<Linear, 2>& last, double first_length,
+                      double last_length) {
+  first_ = first;
+  last_ = last;
+  first_length_ = first_length;
+  last_length_ = last_length;
+  faces_.clear();
+  sides_.clear();
+  occluders_.clear();
+}
+
+void PairCells::add_face(int face, std::int64_t occluder, bool front_only,
+                         const Linear& p, const Linear& q, std::span<const Side> sides) {
+  // Of the last few: faces of one solid come near each other.
+  auto at = std::find(occluders_.rbegin(), occluders_.rend(), occluder);
+  if (at == occluders_.rend()) {
+    occluders_.push_back(occluder);
+    at = occluders_.rbegin();
+  }
+  const auto number = static_cast<std::int32_t>(occluders_.rend() - at - 1);
+  faces_.push_back({face, number, front_only, p, q,
+                    static_cast<std::uint32_t>(sides_.size()),
+                    static_cast<std::uint32_t>(sides.size())});
+  sides_.insert(sides_.end(), sides.begin(), sides.end());
+}
+
+void PairCells::divide(const std::function<bool(int)>& is_middle) {
+  is_middle_ = &is_middle;
+  masks_.resize(occluders_.size());
+  list_.resize(faces_.size());
+  for (std::size_t i = 0; i < list_.size(); ++i) list_[i] = static_cast<std::int32_t>(i);
+  leaves_.clear();
+  leaf_faces_.clear();
+  middles_.clear();
+  hidden_by_ = -1;
+  visit({0, 1, 0, 1}, 0, 0, list_.size());
+  std::sort(middles_.begin(), middles_.end());
+  middles_.erase(std::unique(middles_.begin(), middles_.end()), middles_.end());
+}
+
+// nullopt: no segment inside the cell touches the face from the side it can be entered.
+// Else the corners, and the face's sides that change sign are added to mixed_.
+std::optional<PairCells::Corners> PairCells::passage(const Face& face, const Cell& cell) {
+  const auto p = signs(face.p, cell.s0, cell.s1);
+  const auto q = signs(face.q, cell.t0, cell.t1);
+  const Sign p_all = p.common();
+  const Sign q_all = q.common();
+  if (p_all != Sign::Zero && p_all == q_all) return std::nullopt;
+  Sign entry = p_all != Sign::Zero ? p_all : -q_all;
+  if (face.front_only) {
+    if (entry == Sign::Negative) return std::nullopt;
+    entry = Sign::Positive;
+  }
+  Corners corners;
+  for (unsigned c = 0; c < 4; ++c) {
+    if (entry != Sign::Zero && p.at[c >> 1] == entry && q.at[c & 1] == -entry) {
+      corners.inside |= 1u << c;
+    }
+  }
+  corners.closed = corners.inside;
+  const std::size_t mixed = mixed_.size();
+  for (const Side& side : std::span(sides_).subspan(face.first_side, face.side_count)) {
+    const auto s = signs(*side.form, cell.s0, cell.s1, cell.t0, cell.t1);
+    // As EdgePairs::block(): from front to back, sides have negative forms.
+    const Sign wanted = side.forward ? -entry : entry;
+    const Sign all = s.common();
+    if (all != Sign::Zero && entry != Sign::Zero && all != wanted) {
+      mixed_.resize(mixed);
+      return std::nullopt;
+    }
+    for (unsigned c = 0; c < 4; ++c) {
+      if (s.at[c] == wanted) continue;
+      corners.inside &= ~(1u << c);
+      if ((s.neutral >> c & 1u) == 0) corners.closed &= ~(1u << c);
+    }
+    if (all == Sign::Zero && side.middle >= 0) mixed_.push_back(side.middle);
+  }
+  return corners;
+}
+
+void PairCells::add_leaf(const Cell& cell, std::size_t begin, int occluder) {
+  Leaf leaf{cell, static_cast<std::uint32_t>(leaf_faces_.size()), 0, occluder >= 0};
+  for (std::size_t k = begin; k < list_.size(); ++k) {
+    if (occluder < 0 || faces_[list_[k]].occluder == occluder) {
+      leaf_faces_.push_back(list_[k]);
+    }
+  }
+  leaf.count = static_cast<std::uint32_t>(leaf_faces_.size()) - leaf.first;
+  leaves_.push_back(leaf);
+}
+
+void PairCells::visit(const Cell& cell, int depth, std::size_t begin, std::size_t end) {
+  if (never_grazes(first_, cell.t0, cell.t1) || never_grazes(last_, cell.s0, cell.s1)) {
+    return;
+  }
+  const std::size_t kept = list_.size();
+  mixed_.clear();
+  for (std::size_t k = begin; k < end; ++k) masks_[faces_[list_[k]].occluder] = {};
+  for (std::size_t k = begin; k < end; ++k) {
+    const std::int32_t i = list_[k];
+    const Face& face = faces_[i];
+    const auto corners = passage(face, cell);
+    if (!corners) continue;
+    list_.push_back(i);
+    masks_[face.occluder].closed |= corners->closed;
+    masks_[face.occluder].inside |= corners->inside;
+  }
+  for (std::size_t k = kept; k < list_.size(); ++k) {
+    const Face& face = faces_[list_[k]];
+    const Corners& corners = masks_[face.occluder];
+    if (corners.closed != 15 || corners.inside == 0) continue;
+    if (depth == 0) hidden_by_ = face.id;
+    add_leaf(cell, kept, face.occluder);
+    list_.resize(kept);
+    return;
+  }
+  std::sort(mixed_.begin(), mixed_.end());
+  mixed_.erase(std::unique(mixed_.begin(), mixed_.end()), mixed_.end());
+  std::erase_if(mixed_, [&](int m) { return !(*is_middle_)(m); });
+  if (!mixed_.empty()) {
+    if (list_.size() - kept <= few_faces(depth)) {
+      middles_.insert(middles_.end(), mixed_.begin(), mixed_.end());
+      add_leaf(cell, kept, -1);
+    } else {
+      // Across the longer part of the two edges.
+      const std::size_t last = list_.size();
+      if ((cell.s1 - cell.s0) * first_length_ > (cell.t1 - cell.t0) * last_length_) {
+        const double s = 0.5 * (cell.s0 + cell.s1);
+        visit({cell.s0, s, cell.t0, cell.t1}, depth + 1, kept, last);
+        visit({s, cell.s1, cell.t0, cell.t1}, depth + 1, kept, last);
+      } else {
+        const double t = 0.5 * (cell.t0 + cell.t1);
+        visit({cell.s0, cell.s1, cell.t0, t}, depth + 1, kept, last);
+        visit({cell.s0, cell.s1, t, cell.t1}, depth + 1, kept, last);
+      }
+    }
+  }
+  list_.resize(kept);
+}
+
+bool PairCells::faces_along(const BoundedForm& form, bool turned, double from, double to,
+                            std::vector<std::int32_t>& faces) {
+  faces.clear();
+  if (stamps_.size() < faces_.size()) stamps_.resize(faces_.size(), 0);
+  ++stamp_;
+  bool open = false;
+  for (const Leaf& leaf : leaves_) {
+    const Cell c =
+        turned ? Cell{leaf.cell.t0, leaf.cell.t1, leaf.cell.s0, leaf.cell.s1} : leaf.cell;
+    if (to < c.s0 || from > c.s1 ||
+        signs(form, c.s0, c.s1, c.t0, c.t1).common() != Sign::Zero) {
+      continue;
+    }
+    open |= !leaf.hidden;
+    for (std::uint32_t k = 0; k < leaf.count; ++k) {
+      const std::int32_t i = leaf_faces_[leaf.first + k];
+      if (stamps_[i] == stamp_) continue;
+      stamps_[i] = stamp_;
+      faces.push_back(faces_[i].id);
+    }
+  }
+  return open;
+}
+
+}  // namespace sightline::internal
