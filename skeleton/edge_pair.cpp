@@ -52,6 +52,10 @@ void EdgePairs::prepare(int i) {
   p1_ = scene_.point(r.points[1]);
   middle_ = 0.5 * (p0_ + p1_);
   first_box_ = box_of(std::array<Point, 2>{p0_, p1_});
+  for (int k = 0; k < 2; ++k) {
+    wedge_[k] = plane_seen_from(p0_, scene_.point(r.points[1 - k]),
+                                scene_.point(r.points[k]), scene_.point(r.thirds[k]));
+  }
   ++stamp_;
   for (const Edge::Side& side : scene_.edges()[r.edge].sides) {
     facet_stamp_[scene_.faces()[side.face].facet] = stamp_;
@@ -129,6 +133,15 @@ bool EdgePairs::hidden_edge(const Ridge& last) {
                      [&](int s) { return hides(s, q0, q1); });
 }
 
+// From no point of the box can a line graze the first edge: all are behind both planes
+// of its wedge or in front of both.
+bool EdgePairs::never_grazed_from(const Box& box) const {
+  const CentredBox b = centred(box);
+  const auto c = relative({b.centre[0], b.centre[1], b.centre[2]}, p0_);
+  return (wedge_[0].negative_on(c, b.half) && wedge_[1].negative_on(c, b.half)) ||
+         (wedge_[0].positive_on(c, b.half) && wedge_[1].positive_on(c, b.half));
+}
+
 void EdgePairs::visit(int i, std::vector<FoundArc>& out) {
   if (!selection_.has(i)) return;
   prepare(i);
@@ -139,7 +152,7 @@ void EdgePairs::visit(int i, std::vector<FoundArc>& out) {
   stack[top++] = 0;
   while (top > 0) {
     const Bvh::Node& node = tree.node(stack[--top]);
-    if (hidden(node.box)) continue;
+    if (never_grazed_from(node.box) || hidden(node.box)) continue;
     if (node.count == 0) {
       stack[top++] = node.first + 1;
       stack[top++] = node.first;

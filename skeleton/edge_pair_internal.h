@@ -75,6 +75,7 @@ class EdgePairs {
   void prepare(int i);
   [[nodiscard]] int shadow_of(int face);
   [[nodiscard]] bool hides(int shadow, const Point& q0, const Point& q1) const;
+  [[nodiscard]] bool never_grazed_from(const Box& box) const;
   [[nodiscard]] bool hidden(const Box& box);
   [[nodiscard]] bool hidden_edge(const Ridge& last);
   void visit_pair(int i, int j, std::vector<FoundArc>& out);
@@ -122,6 +123,7 @@ class EdgePairs {
   int first_ = -1;
   Point p0_, p1_, middle_;
   Box first_box_;
+  std::array<BoundedPlane, 2> wedge_;  // its planes
   std::vector<std::uint32_t> facet_stamp_;
   std::uint32_t stamp_ = 0;
   std::vector<std::array<Shadow, 2>> shadows_;
