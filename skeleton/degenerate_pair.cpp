@@ -212,7 +212,8 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
       arc.vertex = star.point;
       arc.edge = ridge.edge;
       arc.self = self;
-      arc.range = {begin->parameter(), end.parameter()};
+      arc.range = {rounded_parameter(scene, line, *begin),
+                   rounded_parameter(scene, line, end)};
       int k = 0;
       for (const Cut& c : {*begin, end}) {
         const ExactPoint x = point_at(c);

@@ -56,6 +56,13 @@ Rational exact_parameter(const Scene& scene, const LineThrough& edge, const Cut&
   return x / (x - y);
 }
 
+double rounded_parameter(const Scene& scene, const LineThrough& edge, const Cut& cut) {
+  if (cut.hi - cut.lo <= kRangeError || thread_precision == Precision::Double) {
+    return cut.parameter();
+  }
+  return exact_parameter(scene, edge, cut).convert_to<double>();
+}
+
 Sign compare(const Scene& scene, const LineThrough& edge, const Cut& a, const Cut& b) {
   const auto fixed = [](const Cut& c) {
     return c.kind == CutKind::Start ? -1 : c.kind == CutKind::End ? 1 : 0;

@@ -10,6 +10,7 @@
 #include "linespace/contact_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
+#include "skeleton/skeleton.h"
 
 namespace sightline::internal {
 
@@ -53,6 +54,10 @@ inline Cut end_cut() { return {CutKind::End, -1, {-1, -1, -1}, 1, 1}; }
 
 /// The exact parameter of a cut along the edge from `start` to `end`.
 [[nodiscard]] Rational exact_parameter(const Scene& scene, const LineThrough& edge,
+                                       const Cut& cut);
+
+/// The same as a double, off by at most kRangeError (at precision Double: as enclosed).
+[[nodiscard]] double rounded_parameter(const Scene& scene, const LineThrough& edge,
                                        const Cut& cut);
 
 /// det(b - a, c - a, d - a), whose sign orient3d gives.

@@ -412,7 +412,7 @@ void EdgePairs::add_arc(const Outer& outer, const EeeCurve& curve, int middle,
   const Ridge& last = g_.ridges()[outer.last];
   FoundArc found;
   found.arc.edges = {first.edge, between.edge, last.edge};
-  found.arc.range = {part.from.parameter(), part.to.parameter()};
+  found.arc.range = {curve.rounded(part.from), curve.rounded(part.to)};
   found.arc.self = share(first.objects, between.objects) ||
                    share(between.objects, last.objects) ||
                    share(first.objects, last.objects);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "skeleton/eee_curve_internal.h"
+#include "skeleton/skeleton.h"
 
 namespace sightline::internal {
 namespace {
@@ -203,6 +204,11 @@ bool EeeCurve::misses(const CurveCut& cut, const BoundedForm& form) const {
          at_lo == certain_sign(h.blossom(cut.hi, cut.hi), h.error);
 }
 
+bool EeeCurve::may_vanish(const BoundedForm& form) const {
+  const Bernstein h = quadratic(form_, form);
+  return std::max({std::abs(h.h0), std::abs(h.h1), std::abs(h.h2)}) <= h.error;
+}
+
 namespace {
 
 Rational rational(const Ring& x) {
@@ -256,6 +262,12 @@ std::optional<Rational> EeeCurve::between(const CurveCut& a, const CurveCut& b) 
   const auto t = rational_parameter(b);
   if (!s || !t) return std::nullopt;
   return Rational((*s + *t) / 2);
+}
+
+double EeeCurve::rounded(const CurveCut& cut) const {
+  if (cut.hi - cut.lo <= kRangeError || in_double()) return cut.parameter();
+  const Root r = exact(cut);
+  return quotient({r.a, r.b}, {r.c, 0}, r.d);
 }
 
 double EeeCurve::last_parameter(double s) const {

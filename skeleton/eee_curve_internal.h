@@ -130,6 +130,9 @@ class EeeCurve {
   void where(int carrier, const BoundedForm& form, Sign wanted, const CurveInterval& in,
              std::vector<CurveInterval>& out, bool& degenerate) const;
 
+  /// Not certain that the form is anything but zero all along.
+  [[nodiscard]] bool may_vanish(const BoundedForm& form) const;
+
   /// Positive when, at a cut where the line meets the carrier g between the outer edges,
   /// the middle edge's contact lies further along than g's; Zero when they coincide.
   [[nodiscard]] Sign order_at(const CurveCut& cut, int carrier,
@@ -150,6 +153,9 @@ class EeeCurve {
   /// and closer than doubles tell apart.
   [[nodiscard]] std::optional<Rational> between(const CurveCut& a,
                                                 const CurveCut& b) const;
+
+  /// The cut's s, off by at most kRangeError (at precision Double: as computed).
+  [[nodiscard]] double rounded(const CurveCut& cut) const;
 
   /// t at s, rounded.
   [[nodiscard]] double last_parameter(double s) const;

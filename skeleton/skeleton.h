@@ -63,6 +63,10 @@ struct SkeletonNode {
   std::array<Point, 2> segment;
 };
 
+/// Bound on the error of the parameters in an arc's `range`, where the precision is
+/// Exact.
+inline constexpr double kRangeError = 0x1p-40;
+
 /// A maximal open interval of an edge that one vertex sees and supports.
 struct SkeletonArc {
   std::int32_t vertex;  ///< point id

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "skeleton/degenerate_pair_internal.h"
+#include "skeleton/far_pieces_internal.h"
 #include "skeleton/node_contacts_internal.h"
 
 namespace sightline {
@@ -101,7 +102,8 @@ FreeSegment free_segment(const LineScan& scan) {
 }  // namespace
 
 struct SkeletonLines::Impl {
-  explicit Impl(const Scene& s) : scene(s), generators(s, 1) {}
+  explicit Impl(const Scene& s)
+      : scene(s), generators(s, 1), carriers(generators), far(generators, carriers) {}
 
   [[nodiscard]] FreeSegment line(const ExactPoint& a, const ExactPoint& b) const {
     const auto faces = faces_near_line(generators, rounded(a), rounded(b));
@@ -124,6 +126,8 @@ struct SkeletonLines::Impl {
 
   const Scene& scene;
   internal::Generators generators;
+  internal::Carriers carriers;
+  internal::FarPieces far;
 };
 
 SkeletonLines::SkeletonLines(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
@@ -217,6 +221,70 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) 
   }
   if (!pieces.empty()) pieces.back().range[1] = arc.range[1];
   return pieces;
+}
+
+namespace {
+
+// Pieces judged line by line: joins them where both far ends are the same.
+void append(std::vector<SkeletonLines::Piece>& pieces, SkeletonLines::Piece piece) {
+  if (!pieces.empty() && pieces.back().line.from_faces == piece.line.from_faces &&
+      pieces.back().line.to_faces == piece.line.to_faces) {
+    pieces.back().range[1] = piece.range[1];
+    return;
+  }
+  pieces.push_back(std::move(piece));
+}
+
+std::vector<SkeletonLines::EndPiece> ends_of(
+    const std::vector<internal::FarPiece>& found) {
+  std::vector<SkeletonLines::EndPiece> out;
+  for (const auto& piece : found) {
+    SkeletonLines::EndPiece& end = out.emplace_back();
+    end.range = piece.range;
+    for (int i = 0; i < 2; ++i) {
+      if (piece.faces[i] >= 0) end.faces[i].push_back(piece.faces[i]);
+    }
+  }
+  return out;
+}
+
+std::vector<SkeletonLines::EndPiece> ends_of(
+    const std::vector<SkeletonLines::Piece>& pieces) {
+  std::vector<SkeletonLines::EndPiece> out;
+  for (const auto& piece : pieces) {
+    out.push_back({piece.range, {piece.line.from_faces, piece.line.to_faces}});
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const EeeArc& arc) const {
+  std::vector<double> stops;
+  if (const auto found = impl_->far.of(arc)) {
+    for (const auto& piece : *found) stops.push_back(piece.range[0]);
+    stops.push_back(arc.range[1]);
+  } else {
+    stops = impl_->far.stops(arc);
+  }
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const double middle = stops[i] + 0.5 * (stops[i + 1] - stops[i]);
+    if (!(middle > stops[i] && middle < stops[i + 1])) continue;
+    auto free = line(arc, middle);
+    if (free) append(pieces, {{stops[i], stops[i + 1]}, std::move(*free)});
+  }
+  return pieces;
+}
+
+std::vector<SkeletonLines::EndPiece> SkeletonLines::ends(const SkeletonArc& arc) const {
+  const auto found = impl_->far.of(arc);
+  return found ? ends_of(*found) : ends_of(pieces(arc));
+}
+
+std::vector<SkeletonLines::EndPiece> SkeletonLines::ends(const EeeArc& arc) const {
+  const auto found = impl_->far.of(arc);
+  return found ? ends_of(*found) : ends_of(pieces(arc));
 }
 
 std::optional<FreeSegment> SkeletonLines::line(const Skeleton& skeleton,

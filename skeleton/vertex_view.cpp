@@ -358,7 +358,8 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     arc.vertex = point_;
     arc.edge = r.edge;
     arc.self = self;
-    arc.range = {i.from.parameter(), i.to.parameter()};
+    arc.range = {rounded_parameter(scene_, {pair.e0, pair.e1}, i.from),
+                 rounded_parameter(scene_, {pair.e0, pair.e1}, i.to)};
     if (mild) {
       arc.nodes = {contact_node(g_, *star_, r, pair.faces, i.from, out),
                    contact_node(g_, *star_, r, pair.faces, i.to, out)};

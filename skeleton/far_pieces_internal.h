@@ -1,0 +1,55 @@
+// What lies at both far ends of an arc's lines, piece by piece: the faces first met
+// beyond the two outer contacts, and the parameters where they change.
+//
+// The lines of an arc are extended beyond the outer contacts P(s) and Q(s).  A face is
+// met by those lines for which all its sides have one sign: parts of the arc between
+// cuts, roots of degree 1 (EV) or 2 (EEE).  Of the faces met on one side of the arc the
+// nearest ends the free segment.  So the pieces are the lower envelope of these parts.
+// In general position nothing else can end it; every other position is told, and left to
+// the contact test.
+
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "skeleton/edge_pair_internal.h"
+#include "skeleton/generators_internal.h"
+#include "skeleton/skeleton.h"
+
+namespace sightline::internal {
+
+/// A part of an arc whose lines end on one face, or nowhere, at either side.
+struct FarPiece {
+  /// Parameters, off by at most kRangeError.
+  std::array<double, 2> range;
+  /// Before the first contact (the vertex of an EV arc), beyond the last; -1 for the
+  /// outside.
+  std::array<int, 2> faces;
+};
+
+/// Parts shorter than this are left out: their ends are not told apart.
+inline constexpr double kShortestPiece = 4 * kRangeError;
+
+/// Finds pieces, one arc after the other.  Keeps references; immutable.
+class FarPieces {
+ public:
+  FarPieces(const Generators& generators, const Carriers& carriers)
+      : g_(generators), carriers_(carriers) {}
+
+  /// The pieces in order, neighbours different; nullopt where some sign is zero all along
+  /// or two faces are met in one point: then the contacts have to be asked.
+  [[nodiscard]] std::optional<std::vector<FarPiece>> of(const SkeletonArc& arc) const;
+  [[nodiscard]] std::optional<std::vector<FarPiece>> of(const EeeArc& arc) const;
+
+  /// All parameters inside an arc's range where its far ends can change, in order,
+  /// whatever the position; its ends included.
+  [[nodiscard]] std::vector<double> stops(const EeeArc& arc) const;
+
+ private:
+  const Generators& g_;
+  const Carriers& carriers_;
+};
+
+}  // namespace sightline::internal
