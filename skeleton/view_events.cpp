@@ -75,22 +75,12 @@ Answer inside(const Enclosure& s, const std::array<double, 2>& range) {
   return Answer::Unknown;
 }
 
-// No contact blocks the line from its position 0, a contact that counts or a viewpoint
-// that does not, up to the viewpoint or corner at 1, which does not count.
-bool free_up_to_end(const LineScan& scan, bool start_counts) {
+// No contact blocks the open part of the line between its positions 0 and 1.
+bool free_between(const LineScan& scan) {
   for (int c = 0; c < scan.size(); ++c) {
-    if (scan.to(c) < 0 || scan.from(c) >= 1) continue;
-    if (!start_counts && scan.to(c) == 0) continue;
-    Rational low = start_counts ? -1 : 0;
-    if (start_counts) {
-      for (const Rational& t : scan.instants(c)) {
-        if (t < 0 && t > low) low = t;
-      }
-    }
-    const bool within = scan.from(c) > low && scan.to(c) < 1;
-    const bool blocked =
-        within ? scan.blocked(c) : scan.blocked_between(c, Rational(low / 2), 1);
-    if (blocked) return false;
+    if (scan.to(c) <= 0 || scan.from(c) >= 1) continue;
+    const bool within = scan.from(c) > 0 && scan.to(c) < 1;
+    if (within ? scan.blocked(c) : scan.blocked_between(c, 0, 1)) return false;
   }
   return true;
 }
@@ -228,10 +218,14 @@ struct ViewEvents::Impl {
     if (inside({rounded_s, rounded_s}, arc.range) == Answer::No) return Answer::No;
     const ExactPoint x =
         along(a, b, root(exact_orient(v, e0, e1, a), exact_orient(v, e0, e1, b)));
-    const ExactPoint from = side == 1 ? v : along(e0, e1, s);
-    const auto faces = faces_near_line(generators, rounded(from), rounded(x));
-    return free_up_to_end(LineScan(scene, faces, from, x), true) ? Answer::Yes
-                                                                 : Answer::No;
+    // As SkeletonLines has it: between the contacts, and from the nearer one on.
+    const ExactPoint contact = along(e0, e1, s);
+    const auto scan = [&](const ExactPoint& p, const ExactPoint& q) {
+      return LineScan(scene, faces_near_line(generators, rounded(p), rounded(q)), p, q);
+    };
+    const bool free =
+        is_free(scan(v, contact)) && free_between(scan(side == 1 ? contact : v, x));
+    return free ? Answer::Yes : Answer::No;
   }
 
   // ---- EEE ----------------------------------------------------------------------------
@@ -418,7 +412,7 @@ struct ViewEvents::Impl {
     const ExactPoint x = along(a, b, at_a / (at_a - at_b));
     const auto sees = [&](const ExactPoint& w) {
       const auto faces = faces_near_line(generators, rounded(x), rounded(w));
-      return free_up_to_end(LineScan(scene, faces, x, w), false);
+      return free_between(LineScan(scene, faces, x, w));
     };
     for (const int f : scene.facets()[facet].faces) {
       const auto corners = scene.face_points(f);

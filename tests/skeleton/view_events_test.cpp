@@ -20,6 +20,13 @@
 #include "tests/support/generators.h"
 
 namespace sightline {
+
+// For messages.
+std::ostream& operator<<(std::ostream& stream, const ViewEvent& e) {
+  return stream << static_cast<int>(e.kind) << ":" << e.id << "/" << int{e.side}
+                << (e.tie ? "=" : "") << "@" << e.u;
+}
+
 namespace {
 
 using internal::exact_point;
@@ -201,6 +208,95 @@ TEST(ViewEvents, AreWhereTheViewChanges) {
   for (const int count : tally.events) EXPECT_GT(count, 30);
   std::printf("%d changes, %d single events; EV %d EEE %d F %d\n", tally.changes,
               tally.single, tally.events[0], tally.events[1], tally.events[2]);
+}
+
+// Without pieces every crossing is decided by its own line's contacts.
+TEST(ViewEvents, PiecesAndContactsAgree) {
+  Request nothing;
+  nothing.budget_seconds = 0;
+  std::size_t events = 0;
+  const auto check = [&](const PolygonSoup& soup, std::uint64_t seed) {
+    const Answers answers(soup);
+    const EndIndex empty(answers.scene, answers.skeleton, nothing);
+    ASSERT_FALSE(empty.complete());
+    const ViewEvents by_contacts(answers.scene, answers.skeleton, empty);
+    testing::Random random(seed);
+    for (int path = 0; path < 4; ++path) {
+      const Point a = grid_point(random, answers.scene, 0.5);
+      const Point b = grid_point(random, answers.scene, 0.5);
+      const auto found = answers.events.crossed(a, b);
+      EXPECT_EQ(found, by_contacts.crossed(a, b)) << seed << " path " << path;
+      events += found.size();
+    }
+  };
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) check(testing::eee_scene(seed), seed);
+  check(testing::random_polytopes(3, 25, {.density = 0.2}), 3);
+  check(testing::city(2, 60), 2);
+  EXPECT_GT(events, 2000U);
+}
+
+TEST(ViewEvents, DoNotDependOnThePathsDirection) {
+  const Answers answers(testing::random_polytopes(9, 25, {.density = 0.2}));
+  testing::Random random(9);
+  const Point a = grid_point(random, answers.scene, 0.1);
+  const Point b = grid_point(random, answers.scene, 0.1);
+  const auto there = answers.events.crossed(a, b);
+  auto back = answers.events.crossed(b, a);
+  std::ranges::reverse(back);
+  ASSERT_EQ(there.size(), back.size());
+  ASSERT_GT(there.size(), 100U);
+  for (std::size_t i = 0; i < there.size(); ++i) {
+    EXPECT_EQ(there[i].kind, back[i].kind);
+    EXPECT_EQ(there[i].id, back[i].id);
+    EXPECT_EQ(there[i].side, back[i].side);
+    EXPECT_NEAR(there[i].u, 1 - back[i].u, 1e-9);
+  }
+}
+
+TEST(ViewEvents, OfOneCubeAreTheTurnsOfItsFaces) {
+  const Answers answers(testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}}));
+  const auto events = answers.events.crossed({-2, 3, 0.5}, {4, 3.5, 0.75});
+  ASSERT_EQ(events.size(), 2U);  // the planes x = 0 and x = 1
+  EXPECT_EQ(events[0].kind, EventKind::F);
+  EXPECT_DOUBLE_EQ(events[0].point[0], 0);
+  EXPECT_DOUBLE_EQ(events[1].point[0], 1);
+  EXPECT_FALSE(events[1].tie);
+  EXPECT_EQ(answers.events.separating({-2, 3, 0.5}, {4, 3.5, 0.75}), events);
+  // Through x = 0 and z = 1 at once.
+  const auto both = answers.events.crossed({-1, 3, 2}, {1, 3, 0});
+  ASSERT_EQ(both.size(), 2U);
+  EXPECT_FALSE(both[0].tie);
+  EXPECT_TRUE(both[1].tie);
+  EXPECT_LT(both[0].id, both[1].id);
+}
+
+TEST(ViewEvents, CrossedTwiceDoNotSeparate) {
+  const Answers answers(testing::random_polytopes(4, 30, {.density = 0.25}));
+  testing::Random random(4);
+  int undone = 0;
+  for (int path = 0; path < 30; ++path) {
+    const Point a = grid_point(random, answers.scene, 0.3);
+    const Point b = grid_point(random, answers.scene, 0.3);
+    const auto all = answers.events.crossed(a, b);
+    const auto between = answers.events.separating(a, b);
+    for (const ViewEvent& e : all) {
+      const auto same = [&](const ViewEvent& x) {
+        return x.kind == e.kind && x.id == e.id;
+      };
+      const auto times = std::ranges::count_if(all, same);
+      EXPECT_LE(times, e.kind == EventKind::EEE ? 2 : 1);
+      EXPECT_EQ(std::ranges::count_if(between, same), times % 2);
+      undone += static_cast<int>(times == 2);
+    }
+  }
+  std::printf("%d crossed twice\n", undone);
+}
+
+TEST(ViewEvents, RefuseWhatIsNoPath) {
+  const Answers answers(testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}}));
+  EXPECT_THROW((void)answers.events.crossed({1, 2, 3}, {1, 2, 3}), InvalidInput);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)answers.events.crossed({1, nan, 3}, {1, 2, 3}), InvalidInput);
 }
 
 }  // namespace
