@@ -63,12 +63,13 @@ double size_of(const Scene& scene) {
 }
 
 // Faces that lines from the chain `p` through the chain `q` may meet beyond it: the boxes
-// of each step of both are swept.  Ascending.
+// of each step of both are swept.  `error` is that of the points, if they are not on
+// their edges at known parameters.  Ascending.
 std::vector<int> faces_beyond(const Generators& g, const std::vector<Point>& p,
-                              const std::vector<Point>& q) {
+                              const std::vector<Point>& q, double error) {
   // Points on edges are off by a few units of the last place, their parameters by
   // kRangeError times an edge's length, which is at most 2 sqrt(3) times the size.
-  const double pad = 16 * kRangeError * size_of(g.scene());
+  const double pad = 16 * kRangeError * size_of(g.scene()) + error;
   std::vector<int> found;
   for (std::size_t k = 0; k + 1 < p.size(); ++k) {
     const std::array<Point, 2> at_p{p[k], p[k + 1]};
@@ -390,7 +391,7 @@ class EeeFamily {
     const auto& f = curve_.form();
     const double size = std::abs(f.f[0][0]) + std::abs(f.f[0][1]) + std::abs(f.f[1][0]) +
                         std::abs(f.f[1][1]);
-    const double error = 4 * f.error + 16 * kUnitRoundoff * size;
+    const double error = 1.1 * f.error + 8 * kUnitRoundoff * size;
     const auto values = [&](double s) {
       return std::array<double, 2>{f.f[0][0] * (1 - s) + f.f[1][0] * s,
                                    f.f[0][1] * (1 - s) + f.f[1][1] * s};
@@ -398,11 +399,15 @@ class EeeFamily {
     const auto middle = values(0.5 * (range_[0] + range_[1]));
     if (std::abs(middle[0]) <= error || std::abs(middle[1]) <= error) return false;
     f0_ = sightline::internal::sign_of(middle[0]);
-    // t is monotone, and off by at most 2 error / |F0 - F1| at the ends.
+    // t = F0 / (F0 - F1) is off by at most 3 error / (|F0 - F1| - 2 error), and F0 - F1
+    // is linear in s.
     for (const double s : range_) {
       const auto [x, y] = values(s);
-      if (error > 0.1 * kRangeError * std::abs(x - y)) return false;
+      const double apart = std::abs(x - y);
+      if (apart <= 20 * error) return false;
+      last_error_ = std::max(last_error_, 4 * error / apart);
     }
+    last_error_ *= (scene_.point(pair_.q[1]) - scene_.point(pair_.q[0])).norm();
     return true;
   }
 
@@ -410,7 +415,8 @@ class EeeFamily {
   [[nodiscard]] Point last(double s) const {
     return on(pair_.q, curve_.last_parameter(s));
   }
-  [[nodiscard]] const EeeCurve& curve() const { return curve_; }
+  // How far last() may be off.
+  [[nodiscard]] double last_error() const { return last_error_; }
   [[nodiscard]] bool touched() const {
     return std::any_of(ridges_.begin(), ridges_.end(),
                        [](const Ridge* r) { return r->touched; });
@@ -556,6 +562,7 @@ class EeeFamily {
   CurveCut from_ = curve_start();
   CurveCut to_ = curve_end();
   Sign f0_ = Sign::Zero;
+  double last_error_ = 0;
   std::vector<CurveInterval> parts_, next_;
   std::vector<BoundedForm> forms_;
 };
@@ -563,9 +570,11 @@ class EeeFamily {
 // The outer contacts of evenly spaced lines of an arc.
 struct Chains {
   std::vector<Point> first, last;
+  double error = 0;
 };
 Chains chains_of(const EeeFamily& family, const std::array<double, 2>& range) {
   Chains out;
+  out.error = family.last_error();
   const int n = steps_for(family.first(range[0]), family.first(range[1]),
                           family.last(range[0]), family.last(range[1]));
   for (int k = 0; k <= n; ++k) {
@@ -579,10 +588,10 @@ Chains chains_of(const EeeFamily& family, const std::array<double, 2>& range) {
 template <class Family>
 bool add_beyond(const Generators& g, const Chains& chains, Family& family,
                 std::vector<Met<typename Family::CutType>>& met) {
-  for (const int f : faces_beyond(g, chains.last, chains.first)) {
+  for (const int f : faces_beyond(g, chains.last, chains.first, chains.error)) {
     if (!family.add(f, 0, met)) return false;
   }
-  for (const int f : faces_beyond(g, chains.first, chains.last)) {
+  for (const int f : faces_beyond(g, chains.first, chains.last, chains.error)) {
     if (!family.add(f, 1, met)) return false;
   }
   return true;
@@ -625,8 +634,8 @@ std::vector<double> FarPieces::stops(const EeeArc& arc) const {
   std::vector<int> faces;
   if (family.prepare()) {
     const Chains chains = chains_of(family, arc.range);
-    faces = faces_beyond(g_, chains.first, chains.last);
-    const auto before = faces_beyond(g_, chains.last, chains.first);
+    faces = faces_beyond(g_, chains.first, chains.last, chains.error);
+    const auto before = faces_beyond(g_, chains.last, chains.first, chains.error);
     faces.insert(faces.end(), before.begin(), before.end());
     std::sort(faces.begin(), faces.end());
     faces.erase(std::unique(faces.begin(), faces.end()), faces.end());

@@ -274,7 +274,7 @@ TEST(ViewEvents, CrossedTwiceDoNotSeparate) {
   const Answers answers(testing::random_polytopes(4, 30, {.density = 0.25}));
   testing::Random random(4);
   int undone = 0;
-  for (int path = 0; path < 30; ++path) {
+  for (int path = 0; path < 5; ++path) {
     const Point a = grid_point(random, answers.scene, 0.3);
     const Point b = grid_point(random, answers.scene, 0.3);
     const auto all = answers.events.crossed(a, b);
