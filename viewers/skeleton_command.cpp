@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <iostream>
 
 #include "linespace/mesh_io.h"
@@ -10,6 +11,7 @@
 #include "viewers/output_file.h"
 #include "viewers/selection.h"
 #include "viewers/skeleton_file.h"
+#include "viewers/skeleton_queries.h"
 #include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
@@ -25,7 +27,30 @@ struct SkeletonOptions : CommonOptions {
   bool list = false;
   bool extend = false;
   std::string output;
+  std::string saved;
+  std::string seen_from;
+  std::vector<std::string> between_ends;
+  std::vector<std::string> crossed;
+
+  [[nodiscard]] bool asks() const {
+    return !seen_from.empty() || !between_ends.empty() || !crossed.empty();
+  }
 };
+
+Point point_of(const std::string& text) {
+  Point p;
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (int i = 0; i < 3; ++i) {
+    const auto [next, error] = std::from_chars(at, end, p[i]);
+    const bool last = i == 2;
+    if (error != std::errc() || (last ? next != end : next == end || *next != ',')) {
+      throw UsageError(fmt::format("--crossed: '{}' is not a point x,y,z", text));
+    }
+    at = next + 1;
+  }
+  return p;
+}
 
 void check(const SkeletonOptions& options) {
   if (options.events == "polygon") {
@@ -40,6 +65,13 @@ void check(const SkeletonOptions& options) {
   if (!options.between.empty() && !options.through.empty()) {
     throw UsageError("--between and --through exclude each other");
   }
+  if (!options.saved.empty() &&
+      (!options.between.empty() || !options.through.empty() || !options.region.empty())) {
+    throw UsageError(
+        "--saved takes the skeleton as it is: no --between, --through, "
+        "--region");
+  }
+  for (const std::string& point : options.crossed) point_of(point);
 }
 
 SkeletonRequest request_of(const SkeletonOptions& options) {
@@ -95,6 +127,80 @@ void print_summary(const Scene& scene, const Skeleton& skeleton, const Json& ans
       p["exact"].get<std::uint64_t>());
 }
 
+void print_arcs(const std::string& what, const Json& arcs) {
+  std::cout << fmt::format("  {}: EV {} EEE {}\n", what, arcs["arcs"]["EV"].get<int>(),
+                           arcs["arcs"]["EEE"].get<int>());
+}
+
+void print_events(const Json& events) {
+  for (const Json& e : events) {
+    const auto p = e["point"].get<std::array<double, 3>>();
+    std::string what;
+    const auto add = [&](const char* name, const Json& id) {
+      what += fmt::format(" {} {}", name, id.get<std::int64_t>());
+    };
+    if (e.contains("facet")) {
+      add("facet", e["facet"]["id"]);
+    } else {
+      add("arc", e["id"]);
+      what += ":";
+      if (e.contains("vertex")) add("vertex", e["vertex"]["id"]);
+      if (e.contains("edge")) add("edge", e["edge"]["id"]);
+      if (e.contains("edges")) {
+        for (const Json& edge : e["edges"]) add("edge", edge["id"]);
+      }
+    }
+    std::cout << fmt::format("  {} u {:.9f} at ({:.6g}, {:.6g}, {:.6g}) {}{}\n",
+                             e["tie"].get<bool>() ? "=" : " ", e["u"].get<double>(), p[0],
+                             p[1], p[2], e["kind"].get<std::string>(), what);
+  }
+}
+
+// Adds the answers to what is asked of the finished skeleton; false when the budget ended
+// first.
+bool answer_queries(const SkeletonOptions& options, const Scene& scene,
+                    const Skeleton& skeleton, Request request, Json& answer) {
+  Progress progress("far ends");
+  request.progress = progress.callback();
+  const EndIndex ends(scene, skeleton, request);
+  if (!options.seen_from.empty()) {
+    answer["seen_from"] = arcs_by_ends_json(scene, skeleton, ends,
+                                            seen_from(scene, ends, options.seen_from));
+  }
+  if (options.between_ends.size() == 2) {
+    answer["between_ends"] = arcs_by_ends_json(
+        scene, skeleton, ends,
+        between_ends(scene, ends, {options.between_ends[0], options.between_ends[1]}));
+  }
+  if (options.crossed.size() == 2) {
+    const ViewEvents events(scene, skeleton, ends);
+    const Point a = point_of(options.crossed[0]);
+    const Point b = point_of(options.crossed[1]);
+    answer["crossed"] = events_json(scene, skeleton, events.crossed(a, b));
+    answer["separating"] = events.separating(a, b).size();
+  }
+  return ends.complete();
+}
+
+void print_queries(const Json& answer) {
+  if (answer.contains("seen_from")) print_arcs("seen", answer["seen_from"]);
+  if (answer.contains("between_ends")) {
+    print_arcs("between these ends", answer["between_ends"]);
+  }
+  if (answer.contains("crossed")) {
+    std::cout << fmt::format("  crossed: {} events, {} of which separate the two ends\n",
+                             answer["crossed"].size(),
+                             answer["separating"].get<std::size_t>());
+    print_events(answer["crossed"]);
+  }
+}
+
+Skeleton saved_skeleton(const std::string& file, const Scene& scene) {
+  StoredSkeleton stored = read_skeleton_json(file);
+  check_fits(stored, scene);
+  return std::move(stored.skeleton);
+}
+
 ExitStatus run(const SkeletonOptions& options) {
   check(options);
   const Interruption interruption;
@@ -107,12 +213,20 @@ ExitStatus run(const SkeletonOptions& options) {
   request.budget_seconds -= meter.seconds();
   request.stop = interruption.token();
   Skeleton skeleton;
-  {
+  if (!options.saved.empty()) {
+    skeleton = saved_skeleton(options.saved, scene);
+  } else {
     Progress progress("skeleton");
     request.progress = progress.callback();
     skeleton = build_selected(scene, request, selection_of(options));
   }
-  Json answer = answer_head("skeleton", scene, skeleton.complete,
+  bool complete = skeleton.complete;
+  Json queries;
+  if (options.asks()) {
+    request.budget_seconds = options.budget - meter.seconds();
+    complete = answer_queries(options, scene, skeleton, request, queries) && complete;
+  }
+  Json answer = answer_head("skeleton", scene, complete,
                             {meter.seconds(), loading + skeleton.predicates});
   answer["options"] = options_json(options);
   answer["nodes"] = node_counts(skeleton);
@@ -121,6 +235,7 @@ ExitStatus run(const SkeletonOptions& options) {
   answer["vertices_asked"] = skeleton.vertices_asked;
   answer["edges_done"] = skeleton.edges_done;
   answer["edges_asked"] = skeleton.edges_asked;
+  if (!queries.is_null()) answer.update(queries);
 
   std::optional<SkeletonLines> lines;
   if (options.list || options.extend) lines.emplace(scene);
@@ -148,8 +263,11 @@ ExitStatus run(const SkeletonOptions& options) {
     write_skeleton_json(file.stream(), answer, scene, skeleton, &*lines);
     file.commit();
   }
-  if (options.may_print()) print_summary(scene, skeleton, answer);
-  return skeleton.complete ? kAnswered : kPartial;
+  if (options.may_print()) {
+    print_summary(scene, skeleton, answer);
+    print_queries(answer);
+  }
+  return complete ? kAnswered : kPartial;
 }
 
 }  // namespace
@@ -196,6 +314,30 @@ Command add_skeleton_command(CLI::App& app) {
       ->add_option("-o,--output", options->output,
                    "save the skeleton as JSON; `sightline view FILE` shows it")
       ->type_name("FILE");
+  command
+      ->add_option("--saved", options->saved,
+                   "take the skeleton of this scene from a file that -o wrote, instead "
+                   "of building it")
+      ->type_name("FILE");
+  command
+      ->add_option("--seen-from", options->seen_from,
+                   "list the arcs with a line that ends on this group: the events that "
+                   "it sees; outside: those seen from far away")
+      ->type_name("GROUP");
+  command
+      ->add_option("--between-ends", options->between_ends,
+                   "list the arcs with a line that runs from one group to the other, or "
+                   "to the outside")
+      ->type_name("A B")
+      ->expected(2);
+  command
+      ->add_option("--crossed", options->crossed,
+                   "list the events that a viewpoint crosses on its way from one point "
+                   "to the other (scene units), in order: u from 0 to 1 along the way, "
+                   "the point, the kind (EV, EEE, or F: a face turns), generators; "
+                   "events in one point are marked =")
+      ->type_name("X,Y,Z X,Y,Z")
+      ->expected(2);
   add_common_options(*command, *options);
   return [options] { return run(*options); };
 }

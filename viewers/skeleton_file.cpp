@@ -64,6 +64,17 @@ void add_far_ends(Json& element, const Scene& scene, const std::optional<FarEnds
                              {"ends", ends_json(ends->faces)}};
 }
 
+template <typename Arc>
+void add_pieces(Json& j, const Scene& scene, const SkeletonLines& lines, const Arc& arc) {
+  Json pieces = Json::array();
+  for (const SkeletonLines::EndPiece& piece : lines.ends(arc)) {
+    pieces.push_back({{"range", piece.range},
+                      {"ends", ends_json({source_polygons(scene, piece.faces[0]),
+                                          source_polygons(scene, piece.faces[1])})}});
+  }
+  j["pieces"] = std::move(pieces);
+}
+
 /// The line at the middle of the arc's range, and what lies along it.
 void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
               const SkeletonArc& arc) {
@@ -71,14 +82,7 @@ void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
   j["line"] = points_json(
       {scene.point(arc.vertex), point_on_edge(scene, scene.edges()[arc.edge], middle)});
   add_far_ends(j, scene, far_ends(scene, lines, arc, middle));
-  Json pieces = Json::array();
-  for (const SkeletonLines::Piece& piece : lines.pieces(arc)) {
-    pieces.push_back(
-        {{"range", piece.range},
-         {"ends", ends_json({source_polygons(scene, piece.line.from_faces),
-                             source_polygons(scene, piece.line.to_faces)})}});
-  }
-  j["pieces"] = std::move(pieces);
+  add_pieces(j, scene, lines, arc);
 }
 
 void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
@@ -86,6 +90,7 @@ void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
   const double middle = 0.5 * (arc.range[0] + arc.range[1]);
   j["line"] = points_json(EeeSurface(scene, arc).line(middle));
   add_far_ends(j, scene, far_ends(scene, lines, arc, middle));
+  add_pieces(j, scene, lines, arc);
 }
 
 Generator generator_from(const Json& j) {

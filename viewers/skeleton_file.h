@@ -15,7 +15,7 @@ namespace sightline::viewers {
 /// at a time, so that no copy of it is held: EV arcs, then EEE arcs.  With lines, each
 /// element also has its "contacts" in order and its "free_segment" (null where
 /// SkeletonLines gives none, and then without contacts), an arc also the "line" at the
-/// middle of its range, an EV arc its "pieces".
+/// middle of its range and its "pieces".
 void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
                          const Skeleton& skeleton, const SkeletonLines* lines);
 
