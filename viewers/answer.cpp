@@ -224,7 +224,7 @@ Json node_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
     generators.push_back(generator_json(scene, g));
   }
   j["generators"] = std::move(generators);
-  j["line"] = points_json(segment_of(scene, skeleton, node));
+  j["line"] = points_json(node.segment);
   return j;
 }
 

@@ -1,6 +1,5 @@
 #include "viewers/far_ends.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -55,34 +54,11 @@ std::optional<FarEnds> far_ends(const Scene& scene, const SkeletonLines& lines,
   return far_ends_of(scene, *free, p, q);
 }
 
-std::array<Point, 2> segment_of(const Scene& scene, const Skeleton& skeleton,
-                                const SkeletonNode& node) {
-  const std::span<const Generator> generators = skeleton.generators(node);
-  const auto [a, b] = node.segment;
-  // Lines that EEE arcs end in come in either direction; the others begin where they
-  // should, and may run along their first edge, where this would decide nothing.
-  const auto kinds = {NodeKind::VEE, NodeKind::EVE, NodeKind::EEEE, NodeKind::FEE};
-  if (std::ranges::find(kinds, node.kind) == kinds.end()) return {a, b};
-  const auto distance = [&](const Generator& g, const Point& p) {
-    if (g.kind == GeneratorKind::Vertex) return (p - scene.point(g.id)).norm();
-    const auto& ends = scene.edges()[g.id].points;
-    const Point along = scene.point(ends[1]) - scene.point(ends[0]);
-    return along.cross(p - scene.point(ends[0])).norm() / along.norm();
-  };
-  const Generator &first = generators.front(), &last = generators.back();
-  // A face does not say through which of its sides the line comes.
-  const bool turned = first.kind == GeneratorKind::Face
-                          ? distance(last, a) < distance(last, b)
-                          : distance(first, b) < distance(first, a);
-  if (turned) return {b, a};
-  return {a, b};
-}
-
 std::optional<FarEnds> far_ends(const Scene& scene, const SkeletonLines& lines,
                                 const Skeleton& skeleton, const SkeletonNode& node) {
   const auto free = lines.line(skeleton, node);
   if (!free) return std::nullopt;
-  const auto [a, b] = segment_of(scene, skeleton, node);
+  const auto& [a, b] = node.segment;
   return far_ends_of(scene, *free, a, b);
 }
 

@@ -38,11 +38,6 @@ struct FarEnds {
                                               const Skeleton& skeleton,
                                               const SkeletonNode& node);
 
-/// The node's segment, from its first generator to its last.
-[[nodiscard]] std::array<Point, 2> segment_of(const Scene& scene,
-                                              const Skeleton& skeleton,
-                                              const SkeletonNode& node);
-
 /// Numbers of the file's polygons that the faces came from, ascending.
 [[nodiscard]] std::vector<int> source_polygons(const Scene& scene,
                                                const std::vector<int>& faces);

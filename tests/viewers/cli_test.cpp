@@ -188,6 +188,10 @@ TEST_F(Cli, BadUsageIsRefusedInOneLine) {
   expect_refused({"skeleton", kRoom, "--region", "0,0,0,1,1"}, "--region");
   expect_refused({"skeleton", kRoom, "--region", "1,0,0,0,1,1"}, "--region");
   expect_refused({"skeleton", kRoom, "--budget", "-1"}, "--budget");
+  expect_refused({"skeleton", kRoom, "--crossed", "1,1,1", "2,2"}, "2,2");
+  expect_refused({"skeleton", kRoom, "--crossed", "1,1,1", "2,2,2x"}, "2,2,2x");
+  expect_refused({"skeleton", kRoom, "--seen-from", "nothing"}, "nothing");
+  expect_refused({"skeleton", kRoom, "--saved", "none.json"}, "none.json");
   expect_refused({"analyse", kRoom, "--only", "shadows"}, "shadows");
   expect_refused({"view", kRoom}, "--png");
   expect_refused({"info", kRoom, "--json", (folder_ / "none/answer.json").string()},
@@ -199,7 +203,8 @@ TEST_F(Cli, HelpNamesEveryOption) {
   EXPECT_EQ(r.status, 0);
   for (const char* option :
        {"--events", "--kinds", "--between", "--through", "--region", "--budget", "--list",
-        "--output", "--json", "--vtk", "--threads", "--precision"}) {
+        "--output", "--saved", "--seen-from", "--between-ends", "--crossed", "--json",
+        "--vtk", "--threads", "--precision"}) {
     EXPECT_NE(r.out.find(option), std::string::npos) << option;
   }
   EXPECT_EQ(run({"--version"}).status, 0);
@@ -308,6 +313,9 @@ TEST_F(Cli, ListOfEeeArcs) {
       EXPECT_NEAR((x - from).norm() + (to - x).norm(), (to - from).norm(), 1e-9);
     }
     ASSERT_FALSE(arc.at("free_segment").is_null());
+    ASSERT_FALSE(arc.at("pieces").empty());
+    EXPECT_EQ(arc.at("pieces").front().at("range")[0], arc.at("range")[0]);
+    EXPECT_EQ(arc.at("pieces").back().at("range")[1], arc.at("range")[1]);
     for (const json& contact : arc.at("contacts")) {
       const double from = contact.at("from");
       middle_touched += from > 0 && from < 1 ? 1 : 0;
@@ -363,6 +371,32 @@ TEST_F(Cli, SavedSkeletonCanBeViewed) {
   const json kept = json::parse(contents(saved));
   EXPECT_FALSE(kept.at("list").at("arcs").empty());
   EXPECT_EQ(kept.at("list").at("arcs").back().at("kind"), "EEE");
+}
+
+TEST_F(Cli, QueriesOfASavedSkeletonAreThoseOfANewOne) {
+  const fs::path saved = folder_ / "skeleton.json";
+  ASSERT_EQ(run({"skeleton", kCornell, "-o", saved.string()}).status, 0);
+  std::vector<std::string> question{
+      "skeleton", kCornell,        "--seen-from",    "floor",      "--crossed",
+      "5,20,5",   "50,25.25,40.5", "--between-ends", "tall_block", "outside"};
+  const json fresh = answer(question);
+  question.insert(question.end(), {"--saved", saved.string()});
+  const json kept = answer(question);
+  for (const char* key : {"seen_from", "between_ends", "crossed", "separating"}) {
+    EXPECT_EQ(fresh.at(key), kept.at(key)) << key;
+  }
+  ASSERT_FALSE(fresh.at("crossed").empty());
+  double last = 0;
+  for (const json& event : fresh.at("crossed")) {
+    EXPECT_GE(event.at("u"), last);
+    last = event.at("u");
+    EXPECT_EQ(event.contains("facet"), event.at("kind") == "F");
+  }
+  for (const json& arc : fresh.at("seen_from").at("list")) {
+    EXPECT_TRUE(std::ranges::any_of(arc.at("pieces"), [](const json& piece) {
+      return piece.at("ends")[0] == "floor" || piece.at("ends")[1] == "floor";
+    })) << arc;
+  }
 }
 
 TEST_F(Cli, BudgetGivesAPartialAnswer) {
