@@ -6,7 +6,6 @@
 #include <set>
 
 #include "viewers/drawing.h"
-#include "viewers/far_ends.h"
 #include "viewers/version.h"
 
 namespace sightline::viewers {
