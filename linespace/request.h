@@ -1,5 +1,5 @@
-// What every analysis is asked besides its question: how exact, how long, on how many
-// threads, whom to tell, when to stop; and what every answer tells of its cost.
+// What every analysis is asked besides its question: how exact, how long, how large, on
+// how many threads, whom to tell, when to stop; and what every answer tells of its cost.
 
 #pragma once
 
@@ -24,6 +24,10 @@ struct Request {
   int threads = 0;
   /// Seconds after which a partial answer is returned, marked incomplete.
   double budget_seconds = std::numeric_limits<double>::infinity();
+  /// Bytes that the answer itself may hold before a partial one is returned, marked
+  /// incomplete: of its arrays, counted as it grows, so that where it stops depends on
+  /// nothing but the question.  The process needs some times as much.
+  std::size_t budget_bytes = std::numeric_limits<std::size_t>::max();
   /// Called from time to time with the fraction done in [0, 1]; may be empty.  Calls are
   /// serialised but may come from any thread.
   std::function<void(double)> progress;

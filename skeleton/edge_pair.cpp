@@ -27,11 +27,11 @@ bool share(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
 }  // namespace
 
 EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
-                     const EeeSelection& selection)
+                     const EeePart& part)
     : g_(generators),
       scene_(generators.scene()),
       carriers_(carriers),
-      selection_(selection),
+      selection_(part),
       facet_stamp_(scene_.facets().size(), 0),
       shadow_index_(
           scene_.objects().size() + scene_.facets().size() + scene_.faces().size(), -2),
@@ -151,7 +151,9 @@ void EdgePairs::visit(int i, std::vector<FoundArc>& out) {
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {
-    const Bvh::Node& node = tree.node(stack[--top]);
+    const std::uint32_t at = stack[--top];
+    const Bvh::Node& node = tree.node(at);
+    if (!selection_.may_pair(i, first_box_, at, node.box)) continue;
     if (never_grazed_from(node.box) || hidden(node.box)) continue;
     if (node.count == 0) {
       stack[top++] = node.first + 1;
@@ -233,6 +235,8 @@ bool EdgePairs::gather(const Outer& outer) {
   faces_.clear();
   ++pair_stamp_;
   const Shaft shaft(p0_, p1_, scene_.point(last.points[0]), scene_.point(last.points[1]));
+  const bool outer_through = selection_.goes_through(i) || selection_.goes_through(j);
+  if (!outer_through && !shaft.may_meet(selection_.through_box)) return false;
   g_.face_tree().traverse([&](const Box& box) { return shaft.may_meet(box); },
                           [&](std::uint32_t item) {
                             const int face = static_cast<int>(item);
@@ -263,7 +267,6 @@ bool EdgePairs::gather(const Outer& outer) {
     cells_.add_face(face, occluder_key(g_, face), front_only, linear(p), linear(q),
                     cell_sides_);
   }
-  const bool outer_through = selection_.goes_through(i) || selection_.goes_through(j);
   cells_.divide([&](int m) {
     if (middle_stamp_[m] == pair_stamp_) return middle_allowed_[m] != 0;
     middle_stamp_[m] = pair_stamp_;

@@ -12,6 +12,7 @@
 #include "skeleton/eee_curve_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/pair_cells_internal.h"
+#include "skeleton/part_internal.h"
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
 
@@ -35,27 +36,11 @@ struct FoundArc {
   std::array<FoundNode, 2> ends;
 };
 
-/// Which ridges may take which part; empty means all.
-struct EeeSelection {
-  std::vector<std::uint8_t> allowed;               ///< as any of the three
-  std::array<std::vector<std::uint8_t>, 2> outer;  ///< one of each
-  std::vector<std::uint8_t> through;               ///< one of the three at least
-
-  [[nodiscard]] bool has(int ridge) const { return allowed.empty() || allowed[ridge]; }
-  [[nodiscard]] bool has_outer(int i, int j) const {
-    return outer[0].empty() || (outer[0][i] && outer[1][j]) ||
-           (outer[0][j] && outer[1][i]);
-  }
-  [[nodiscard]] bool goes_through(int ridge) const {
-    return through.empty() || through[ridge];
-  }
-};
-
 /// Visits pairs of ridges; keeps scratch, so one per thread.
 class EdgePairs {
  public:
   EdgePairs(const Generators& generators, const Carriers& carriers,
-            const EeeSelection& selection);
+            const EeePart& part);
 
   /// Appends the arcs between ridge i and all ridges of higher number.
   void visit(int i, std::vector<FoundArc>& out);
@@ -117,7 +102,7 @@ class EdgePairs {
   const Generators& g_;
   const Scene& scene_;
   const Carriers& carriers_;
-  const EeeSelection& selection_;
+  const EeePart& selection_;
 
   // The first edge at hand, and occluders seen from both its ends.
   int first_ = -1;

@@ -107,52 +107,26 @@ class LineJoiner {
   std::map<std::vector<Generator>, std::uint32_t> degenerate_;
 };
 
-std::vector<std::uint8_t> ridges_on(const Generators& g,
-                                    const std::vector<int>& objects) {
-  std::vector<std::uint8_t> on;
-  if (objects.empty()) return on;
-  for (const Ridge& r : g.ridges()) {
-    on.push_back(std::any_of(r.objects.begin(), r.objects.end(), [&](int o) {
-      return std::find(objects.begin(), objects.end(), o) != objects.end();
-    }));
-  }
-  return on;
-}
-
-EeeSelection selection_of(const Generators& g, const SkeletonRequest& request) {
-  EeeSelection selection;
-  selection.outer = {ridges_on(g, request.outer_objects[0]),
-                     ridges_on(g, request.outer_objects[1])};
-  selection.through = ridges_on(g, request.through_objects);
-  if (request.region) {
-    const auto inside = [&](const Point& p) {
-      return (p.array() >= (*request.region)[0].array()).all() &&
-             (p.array() <= (*request.region)[1].array()).all();
-    };
-    for (const Ridge& r : g.ridges()) {
-      selection.allowed.push_back(inside(g.scene().point(r.points[0])) &&
-                                  inside(g.scene().point(r.points[1])));
-    }
-  }
-  return selection;
-}
-
 }  // namespace
 
 void add_eee(const Generators& generators, const SkeletonRequest& request,
              std::chrono::steady_clock::time_point start, std::array<double, 2> progress,
              Skeleton& skeleton) {
+  const EeePart part = eee_part(generators, request);
+  const std::vector<int> firsts = asked_ridges(generators, part);
+  skeleton.edges_asked = firsts.size();
+  if (firsts.empty() || skeleton.stopped_by != StoppedBy::Nothing) {
+    skeleton.complete = skeleton.complete && firsts.empty();
+    return;
+  }
   const Carriers carriers(generators);
-  const EeeSelection selection = selection_of(generators, request);
-  const std::size_t count = generators.ridges().size();
-  skeleton.edges_asked = count;
   LineJoiner joiner(skeleton);
-  for_each_parallel(
-      count, request, start, progress, skeleton.predicates,
-      [&] { return std::make_unique<EdgePairs>(generators, carriers, selection); },
+  skeleton.stopped_by = for_each_parallel(
+      firsts.size(), request, start, progress, skeleton.predicates,
+      [&] { return std::make_unique<EdgePairs>(generators, carriers, part); },
       [&](EdgePairs& pairs, std::size_t i) {
         std::vector<FoundArc> arcs;
-        pairs.visit(static_cast<int>(i), arcs);
+        pairs.visit(firsts[i], arcs);
         std::sort(arcs.begin(), arcs.end(), [](const FoundArc& a, const FoundArc& b) {
           return std::pair(a.arc.edges, a.arc.range) <
                  std::pair(b.arc.edges, b.arc.range);
@@ -162,6 +136,7 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
       [&](std::size_t, std::vector<FoundArc>&& arcs) {
         joiner.add(arcs);
         ++skeleton.edges_done;
+        return skeleton.bytes() < request.budget_bytes;
       });
   skeleton.complete = skeleton.complete && skeleton.edges_done == skeleton.edges_asked;
 }

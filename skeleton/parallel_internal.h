@@ -20,6 +20,7 @@
 
 #include "linespace/predicates.h"
 #include "linespace/request.h"
+#include "skeleton/skeleton.h"
 
 namespace sightline::internal {
 
@@ -37,12 +38,14 @@ namespace sightline::internal {
 /// thread from make(), and consume(i, result) with what it returns: one at a time, in
 /// order, soon after, so that results need not be held.  Stops early when the request's
 /// budget, counted from `start`, ends or a stop is requested: what was begun is consumed,
-/// a prefix of all.  Progress goes from progress[0] to progress[1].
+/// a prefix of all; and when consume returns false, after which nothing is consumed.
+/// Returns whether all was consumed and, if not, why.  Progress goes from progress[0] to
+/// progress[1].
 template <class Make, class Step, class Consume>
-void for_each_parallel(std::size_t count, const Request& request,
-                       std::chrono::steady_clock::time_point start,
-                       std::array<double, 2> progress, StageCounts& counts, Make&& make,
-                       Step&& step, Consume&& consume) {
+StoppedBy for_each_parallel(std::size_t count, const Request& request,
+                            std::chrono::steady_clock::time_point start,
+                            std::array<double, 2> progress, StageCounts& counts,
+                            Make&& make, Step&& step, Consume&& consume) {
   const int threads = threads_of(request);
   using Worker = decltype(make());
   using Result = decltype(step(*std::declval<Worker&>(), std::size_t{0}));
@@ -56,6 +59,8 @@ void for_each_parallel(std::size_t count, const Request& request,
   std::atomic<bool> stopped{false};
   std::size_t next = 0;
   bool cut = false;
+  std::size_t consumed = 0;
+  StoppedBy by = StoppedBy::Nothing;
   oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                     static_cast<std::size_t>(threads));
   oneapi::tbb::task_arena arena(threads);
@@ -90,7 +95,11 @@ void for_each_parallel(std::size_t count, const Request& request,
   };
   const auto deliver = [&](const std::shared_ptr<Batch>& batch) {
     for (std::size_t k = 0; k < batch->results.size() && !cut; ++k) {
-      consume(batch->first + k, std::move(*batch->results[k]));
+      ++consumed;
+      if (!consume(batch->first + k, std::move(*batch->results[k]))) {
+        if (consumed < count) by = StoppedBy::Bytes;
+        cut = stopped = true;
+      }
     }
     // Nothing after a gap, so that a partial answer is a prefix.
     if (batch->results.size() < std::min(kBatch, count - batch->first)) cut = true;
@@ -114,6 +123,8 @@ void for_each_parallel(std::size_t count, const Request& request,
             oneapi::tbb::make_filter<std::shared_ptr<Batch>, void>(
                 filter_mode::serial_in_order, deliver));
   });
+  if (consumed == count || by != StoppedBy::Nothing) return by;
+  return request.stop.stop_requested() ? StoppedBy::Request : StoppedBy::Seconds;
 }
 
 }  // namespace sightline::internal

@@ -7,6 +7,7 @@
 #include <unordered_map>
 
 #include "skeleton/eee_skeleton_internal.h"
+#include "skeleton/face_pairs_internal.h"
 #include "skeleton/parallel_internal.h"
 #include "skeleton/vertex_view_internal.h"
 
@@ -14,52 +15,10 @@ namespace sightline {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+using internal::EvPart;
 using internal::Generators;
-using internal::Selection;
 using internal::VertexView;
 using internal::VertexViewer;
-
-bool in_box(const std::array<Point, 2>& box, const Point& p) {
-  return (p.array() >= box[0].array()).all() && (p.array() <= box[1].array()).all();
-}
-
-// Stars whose views are asked for, in order of point id.
-std::vector<int> selected_stars(const Generators& g, const SkeletonRequest& request) {
-  std::vector<int> stars;
-  for (std::size_t i = 0; i < g.stars().size(); ++i) {
-    const int p = g.stars()[i].point;
-    if (request.region && !in_box(*request.region, g.scene().point(p))) continue;
-    if (!request.vertex_objects.empty()) {
-      const auto here = g.objects_at(p);
-      const auto& wanted = request.vertex_objects;
-      const bool asked = std::any_of(here.begin(), here.end(), [&](int o) {
-        return std::find(wanted.begin(), wanted.end(), o) != wanted.end();
-      });
-      if (!asked) continue;
-    }
-    stars.push_back(static_cast<int>(i));
-  }
-  return stars;
-}
-
-Selection selected_ridges(const Generators& g, const SkeletonRequest& request) {
-  Selection selection;
-  if (request.edge_objects.empty() && !request.region) return selection;
-  const Scene& scene = g.scene();
-  for (const auto& ridge : g.ridges()) {
-    const auto& wanted = request.edge_objects;
-    bool asked = wanted.empty() ||
-                 std::any_of(ridge.objects.begin(), ridge.objects.end(), [&](int o) {
-                   return std::find(wanted.begin(), wanted.end(), o) != wanted.end();
-                 });
-    if (request.region) {
-      asked = asked && in_box(*request.region, scene.point(ridge.points[0])) &&
-              in_box(*request.region, scene.point(ridge.points[1]));
-    }
-    selection.ridges.push_back(asked);
-  }
-  return selection;
-}
 
 // Joins views, one node for each line: VV nodes are found from both ends, degenerate ones
 // from every generator.
@@ -76,6 +35,8 @@ class Joiner {
       for (auto& node : arc.nodes) node = number[node];
       out_.arcs.push_back(arc);
     }
+    auto& short_arcs = out_.simplified.arcs;
+    short_arcs.insert(short_arcs.end(), view.short_arcs.begin(), view.short_arcs.end());
   }
 
  private:
@@ -115,17 +76,24 @@ class Joiner {
 };
 void build_ev(const Generators& generators, const SkeletonRequest& request,
               Clock::time_point start, double progress_share, Skeleton& skeleton) {
-  const std::vector<int> stars = selected_stars(generators, request);
-  const Selection selection = selected_ridges(generators, request);
+  const EvPart part = internal::ev_part(generators, request);
+  const std::vector<int> stars = internal::asked_stars(generators, part);
   skeleton.vertices_asked = stars.size();
   Joiner joiner(skeleton);
-  internal::for_each_parallel(
+  std::optional<SkeletonLines> lines;
+  if (part.by_lines) lines.emplace(generators.scene());
+  const SkeletonLines* pieces = lines ? &*lines : nullptr;
+  skeleton.stopped_by = internal::for_each_parallel(
       stars.size(), request, start, {0, progress_share}, skeleton.predicates,
-      [&] { return std::make_unique<VertexViewer>(generators, selection); },
+      [&] {
+        return std::make_unique<VertexViewer>(generators, part, pieces,
+                                              request.feature_size);
+      },
       [&](VertexViewer& viewer, std::size_t i) { return viewer.view(stars[i]); },
       [&](std::size_t, VertexView&& view) {
         joiner.add(view);
         ++skeleton.vertices_done;
+        return skeleton.bytes() < request.budget_bytes;
       });
   skeleton.complete = skeleton.vertices_done == skeleton.vertices_asked;
 }
@@ -138,6 +106,7 @@ Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
   const StageCounts before = thread_stage_counts();
   const Generators generators(scene, internal::threads_of(request));
   skeleton.predicates = internal::difference(thread_stage_counts(), before);
+  skeleton.simplified = internal::simplified_by(scene, request.feature_size);
   build_ev(generators, request, start, 1, skeleton);
   return skeleton;
 }
@@ -148,9 +117,13 @@ Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
   const StageCounts before = thread_stage_counts();
   const Generators generators(scene, internal::threads_of(request));
   skeleton.predicates = internal::difference(thread_stage_counts(), before);
-  const double share = !request.ev ? 0 : request.eee ? 0.3 : 1;
+  skeleton.simplified = internal::simplified_by(scene, request.feature_size);
+  const double share = !request.ev ? 0 : request.eee ? 0.3 : request.ff ? 0.9 : 1;
+  const double last = request.ff ? (request.ev || request.eee ? 0.9 : 0) : 1;
   if (request.ev) build_ev(generators, request, start, share, skeleton);
-  if (request.eee) internal::add_eee(generators, request, start, {share, 1}, skeleton);
+  if (request.eee) internal::add_eee(generators, request, start, {share, last}, skeleton);
+  if (request.ff)
+    internal::add_face_pairs(generators, request, start, {last, 1}, skeleton);
   return skeleton;
 }
 

@@ -9,7 +9,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,7 +24,8 @@
 namespace sightline {
 
 /// What an extremal stabbing line is held by, vertex first in the name; Degenerate lines
-/// have more contacts than four degrees of freedom need; Saddle is a line through a
+/// have more contacts than four degrees of freedom need; FF lies in the planes of two
+/// facets, and ends no arc; Saddle is a line through a
 /// corner along which two of that corner's own edges line up (objects that are not
 /// convex); Pierce is where an edge enters a face (overlapping objects).
 enum class NodeKind : std::uint8_t {
@@ -32,6 +35,7 @@ enum class NodeKind : std::uint8_t {
   FvE,
   EEEE,
   FEE,
+  FF,
   Saddle,
   Pierce,
   Degenerate
@@ -93,18 +97,66 @@ struct SkeletonRequest : Request {
   /// Kinds of line sets that build_skeleton() looks for; with EV come the VV, VEE, FvE
   /// and EVE nodes, with EEE the VEE, EVE, EEEE and FEE nodes.
   bool ev = true, eee = true;
+  /// Whether FF nodes are looked for too: free lines in the planes of two facets, across
+  /// the inside of both (of one object: `self`).  They end no arc, so they come only when
+  /// asked for.  Facets in parallel planes have none, nor have those that are planar only
+  /// up to a tolerance; a facet that the line crosses several times counts once.
+  bool ff = false;
   /// Only EV arcs whose vertex is on one of these objects; empty means all.
   std::vector<int> vertex_objects;
   /// Only EV arcs whose edge is on one of these objects; empty means all.
   std::vector<int> edge_objects;
-  /// Only EEE arcs whose outer edges are one on an object of the first list, the other on
-  /// one of the second; both empty means all.
+  /// Only arcs between these: EV arcs with the vertex on an object of one list and the
+  /// edge on one of the other, EEE arcs with one outer edge on each; an empty list means
+  /// all objects.
   std::array<std::vector<int>, 2> outer_objects;
-  /// Only EEE arcs with an edge on one of these objects; empty means all.
+  /// Only arcs with a generator on one of these objects; empty means all.
   std::vector<int> through_objects;
-  /// Only generators inside this box (corner of smallest, of largest coordinates).
+  /// Likewise of a source given by some of its faces: a corner of one, an edge of its
+  /// facet.  With both, either will do.
+  std::vector<int> through_faces;
+  /// Then also EV arcs some of whose lines end there, that is, whose free segment has a
+  /// face of the source at an end along some stretch: all EV arcs with lines that meet
+  /// the source.  Exact, as SkeletonLines::pieces.  EEE arcs need an edge there.
+  bool through_far_ends = false;
+  /// Only generators inside this closed box (corner of smallest, of largest coordinates),
+  /// an edge with both its ends.
   std::optional<std::array<Point, 2>> region;
+  struct Ball {
+    Point centre;
+    double radius;  ///< scene units
+  };
+  /// Only generators no farther than the radius from the centre, an edge with some point
+  /// of it: what a viewpoint there has around it.  Decided exactly.
+  std::optional<Ball> near;
+  /// Only arcs between two closed boxes, such as two rooms: EV arcs with the vertex in
+  /// one and the edge (both ends) in the other, EEE arcs with the outer edges one in
+  /// each.
+  std::optional<std::array<std::array<Point, 2>, 2>> between_boxes;
+  /// Features below this size (scene units) make no events but still occlude; 0 asks for
+  /// everything.  Left out are edges shorter than it, corners all of whose edges are, so
+  /// objects whose box has a shorter diagonal, and EV arcs on a shorter stretch of their
+  /// edge.  Skeleton::simplified lists them.  What is left is a subset of the arcs at any
+  /// smaller size.
+  double feature_size = 0;
 };
+
+/// What SkeletonRequest::feature_size left out.
+struct Simplified {
+  double feature_size = 0;
+  /// Edge ids, point ids and object numbers of the whole scene, ascending, whatever part
+  /// of it was asked for; of objects all edges and corners are among the others.
+  std::vector<std::int32_t> edges, vertices, objects;
+  /// EV arcs of larger features, too short themselves.
+  struct Arc {
+    std::int32_t vertex, edge;
+    std::array<double, 2> range;
+  };
+  std::vector<Arc> arcs;
+};
+
+/// What ended the work before it was done.
+enum class StoppedBy : std::uint8_t { Nothing, Seconds, Bytes, Request };
 
 /// Immutable; safe to share between threads.  Deterministic: EV arcs are ordered by
 /// vertex, edge and parameter, EEE arcs by outer and middle edges, whatever the number of
@@ -118,8 +170,17 @@ struct Skeleton {
   std::size_t vertices_done = 0, vertices_asked = 0;
   /// First edges of EEE arcs, each with all edges of higher number.
   std::size_t edges_done = 0, edges_asked = 0;
+  /// First facets of FF nodes, each with all facets of higher number.
+  std::size_t facets_done = 0, facets_asked = 0;
+  StoppedBy stopped_by = StoppedBy::Nothing;
+  Simplified simplified;
   StageCounts predicates;
 
+  /// Of its nodes, arcs and generators: what Request::budget_bytes limits.
+  [[nodiscard]] std::size_t bytes() const {
+    return nodes.size() * sizeof(SkeletonNode) + arcs.size() * sizeof(SkeletonArc) +
+           eee_arcs.size() * sizeof(EeeArc) + generator_pool.size() * sizeof(Generator);
+  }
   [[nodiscard]] std::span<const Generator> generators(const SkeletonNode& node) const {
     return {generator_pool.data() + node.first_generator, node.generator_count};
   }

@@ -43,6 +43,8 @@ Structure structure_of(const SkeletonNode& node) {
       return {true, 1, 2};
     case NodeKind::FvE:
       return {true, 1, 0};
+    case NodeKind::FF:
+      return {true, 0, 0};
     case NodeKind::EVE:
     case NodeKind::EEEE:
     case NodeKind::FEE:

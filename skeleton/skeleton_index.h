@@ -42,6 +42,7 @@ class SkeletonIndex {
   /// What general position demands of every node and this skeleton does not have, one
   /// line each, naming the node; empty when all is well.  The catalogue, as ends of arcs:
   ///   VV 4 EV;  VEE 1 EV and 2 EEE;  FvE 1 EV;  EVE, EEEE, FEE 2 EEE;
+  ///   FF none (what meets there are lines in a face's plane along an edge);
   /// an `end` node of VEE or FEE ends 1 EEE arc.  Degenerate, saddle, pierce, `_self`
   /// nodes and the other `end` nodes are not in general position and not asked.  Requires
   /// a complete skeleton of both kinds.

@@ -70,6 +70,32 @@ void VertexView::sort_arcs() {
   intervals = std::move(sorted_intervals);
 }
 
+void VertexView::keep_arcs(const std::vector<std::uint8_t>& flags) {
+  std::vector<SkeletonArc> kept;
+  std::vector<CutInterval> kept_intervals;
+  for (std::size_t i = 0; i < arcs.size(); ++i) {
+    if (flags[i] == 0) continue;
+    kept.push_back(arcs[i]);
+    kept_intervals.push_back(intervals[i]);
+  }
+  if (kept.size() == arcs.size()) return;
+  arcs = std::move(kept);
+  intervals = std::move(kept_intervals);
+  constexpr auto kUnused = static_cast<std::uint32_t>(-1);
+  std::vector<std::uint32_t> renamed(nodes.size(), kUnused);
+  std::vector<SkeletonNode> used;
+  for (SkeletonArc& arc : arcs) {
+    for (std::uint32_t& n : arc.nodes) {
+      if (renamed[n] == kUnused) {
+        renamed[n] = static_cast<std::uint32_t>(used.size());
+        used.push_back(nodes[n]);
+      }
+      n = renamed[n];
+    }
+  }
+  nodes = std::move(used);
+}
+
 // Angular cover test: seen along the line every sector is a convex cone of the plane; the
 // cones leave a gap iff the counter-clockwise side of some ray is covered by none.
 StarContact star_contact(const Scene& scene, const Star& star, const Point& x) {
@@ -113,10 +139,13 @@ StarContact star_contact(const Scene& scene, const Star& star, const Point& x) {
   return star.sectors.empty() ? StarContact::Grazes : StarContact::Blocked;
 }
 
-VertexViewer::VertexViewer(const Generators& generators, const Selection& selection)
+VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
+                           const SkeletonLines* lines, double feature_size)
     : g_(generators),
       scene_(generators.scene()),
-      selection_(selection),
+      part_(part),
+      lines_(lines),
+      feature_size_(feature_size),
       facet_stamp_(scene_.facets().size(), 0) {}
 
 struct VertexViewer::Pair {
@@ -142,6 +171,7 @@ struct VertexViewer::Pair {
 
 void VertexViewer::prepare(int star) {
   star_id_ = star;
+  wanted_ = part_.wanted(star);
   star_ = &g_.stars()[star];
   point_ = star_->point;
   at_ = scene_.point(point_);
@@ -218,6 +248,8 @@ VertexView VertexViewer::view(int star) {
   prepare(star);
   if (g_.inside_solid(star)) return out;
   visit_ridges(out);
+  if (feature_size_ > 0) drop_short_arcs(out);
+  if (part_.by_lines) drop_arcs_off_source(out);
   add_line_ups(out);
   if (out.degenerate) find_further_contacts(g_, *star_, out);
   out.intervals = {};
@@ -233,7 +265,9 @@ void VertexViewer::visit_ridges(VertexView& out) {
   stack[top++] = 0;
   std::vector<int> found;
   while (top > 0) {
-    const Bvh::Node& node = tree.node(stack[--top]);
+    const std::uint32_t at = stack[--top];
+    if (!part_.has_below(at, wanted_)) continue;
+    const Bvh::Node& node = tree.node(at);
     const CentredBox box = centred(node.box);
     const Point middle{box.centre[0], box.centre[1], box.centre[2]};
     std::array<double, 3> c = relative(middle, at_);
@@ -261,8 +295,45 @@ void VertexViewer::visit_ridges(VertexView& out) {
   out.sort_arcs();
 }
 
+void VertexViewer::drop_short_arcs(VertexView& out) {
+  std::vector<std::uint8_t> kept;
+  for (const SkeletonArc& arc : out.arcs) {
+    const auto& p = scene_.edges()[arc.edge].points;
+    const double whole = (scene_.point(p[1]) - scene_.point(p[0])).norm();
+    kept.push_back((arc.range[1] - arc.range[0]) * whole >= feature_size_);
+    if (kept.back() == 0) out.short_arcs.push_back({arc.vertex, arc.edge, arc.range});
+  }
+  out.keep_arcs(kept);
+}
+
+// Neither generator is on the source: some line of the arc must end there.
+void VertexViewer::drop_arcs_off_source(VertexView& out) {
+  const auto on_source = [&](const std::vector<int>& faces) {
+    return std::any_of(faces.begin(), faces.end(),
+                       [&](int f) { return part_.source_faces[f] != 0; });
+  };
+  std::vector<std::uint8_t> kept;
+  for (const SkeletonArc& arc : out.arcs) {
+    if (part_.on_source(star_id_, g_.ridge_of_edge(arc.edge))) {
+      kept.push_back(1);
+      continue;
+    }
+    const auto pieces = lines_->pieces(arc);
+    kept.push_back(std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
+      return on_source(piece.line.from_faces) || on_source(piece.line.to_faces);
+    }));
+  }
+  out.keep_arcs(kept);
+}
+
 void VertexViewer::view_ridge(int ridge, VertexView& out) {
-  if (!selection_.has(ridge)) return;
+  if (!part_.has(ridge, wanted_)) return;
+  if (part_.by_lines && !part_.on_source(star_id_, ridge)) {
+    const auto& p = g_.ridges()[ridge].points;
+    if (!wedge_may_meet(at_, scene_.point(p[0]), scene_.point(p[1]), part_.source_box)) {
+      return;
+    }
+  }
   const Ridge& r = g_.ridges()[ridge];
   if (r.points[0] == point_ || r.points[1] == point_) return;
   const Sign a = r.a(at_);

@@ -11,8 +11,10 @@
 
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/part_internal.h"
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
+#include "skeleton/skeleton_lines.h"
 
 namespace sightline::internal {
 
@@ -21,8 +23,9 @@ struct VertexView {
   std::vector<SkeletonArc> arcs;
   std::vector<SkeletonNode> nodes;
   std::vector<Generator> pool;
-  std::vector<CutInterval> intervals;  ///< exact ranges of `arcs`, while it is built
-  std::deque<Rational> positions;      ///< of cuts that keep a pointer
+  std::vector<CutInterval> intervals;       ///< exact ranges of `arcs`, while it is built
+  std::deque<Rational> positions;           ///< of cuts that keep a pointer
+  std::vector<Simplified::Arc> short_arcs;  ///< left out
   /// Some line here has more contacts than it needs, or one is in the plane of a face.
   bool degenerate = false;
 
@@ -30,12 +33,8 @@ struct VertexView {
                          std::span<const Generator> generators,
                          const std::array<Point, 2>& segment);
   void sort_arcs();
-};
-
-/// Which ridges take part.
-struct Selection {
-  std::vector<std::uint8_t> ridges;  ///< empty: all
-  [[nodiscard]] bool has(int ridge) const { return ridges.empty() || ridges[ridge] != 0; }
+  /// Leaves out the other arcs, and the nodes that only they end at.
+  void keep_arcs(const std::vector<std::uint8_t>& kept);
 };
 
 /// How a line through a star's point meets the star.
@@ -49,9 +48,12 @@ enum class StarContact : std::uint8_t { Grazes, Blocked, Degenerate };
 /// Computes views, one at a time; keeps scratch, so one per thread.
 class VertexViewer {
  public:
-  VertexViewer(const Generators& generators, const Selection& selection);
+  /// Keeps references; `lines` may be null unless part.by_lines.  Arcs on a stretch of
+  /// their edge shorter than `feature_size` are left out, and listed.
+  VertexViewer(const Generators& generators, const EvPart& part,
+               const SkeletonLines* lines, double feature_size);
 
-  /// The view of stars()[star]: every arc of its point with a selected ridge.
+  /// The view of stars()[star]: every arc of its point with a ridge of the part.
   [[nodiscard]] VertexView view(int star);
 
  private:
@@ -64,6 +66,8 @@ class VertexViewer {
                               const std::array<double, 3>& half);
   int shadow_of(int face);  // position in shadows_, -1 if it casts none
   void visit_ridges(VertexView& out);
+  void drop_short_arcs(VertexView& out);
+  void drop_arcs_off_source(VertexView& out);
   void view_ridge(int ridge, VertexView& out);
   void add_blocker(Pair& pair, int face);
   [[nodiscard]] bool continues_across(int face, std::span<const Sign> signs) const;
@@ -83,9 +87,12 @@ class VertexViewer {
 
   const Generators& g_;
   const Scene& scene_;
-  const Selection& selection_;
+  const EvPart& part_;
+  const SkeletonLines* lines_;
+  double feature_size_;
   // The viewpoint at hand.
   int star_id_ = -1;
+  std::uint8_t wanted_ = 0;  // bits of the part
   const Star* star_ = nullptr;
   int point_ = -1;
   Point at_;
