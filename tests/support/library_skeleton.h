@@ -25,6 +25,8 @@ inline std::string node_name(NodeKind kind) {
       return "EEEE";
     case NodeKind::FEE:
       return "FEE";
+    case NodeKind::FF:
+      return "FF";
     case NodeKind::Saddle:
       return "Saddle";
     case NodeKind::Pierce:

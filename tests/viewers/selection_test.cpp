@@ -9,6 +9,7 @@
 #include <set>
 
 #include "linespace/mesh_io.h"
+#include "skeleton/skeleton_lines.h"
 #include "tests/support/generators.h"
 #include "viewers/drawing.h"
 
@@ -39,7 +40,7 @@ struct Values {
   std::multiset<NodeValue> nodes;
 };
 
-using KeepEv = std::function<bool(int vertex, int edge)>;
+using KeepEv = std::function<bool(const SkeletonArc&)>;
 using KeepEee = std::function<bool(const EeeArc&)>;
 
 /// The arcs kept, the nodes at their ends, and the EVE nodes both of whose EV arcs are.
@@ -47,8 +48,10 @@ Values values_of(const Skeleton& skeleton, bool with_ev, const KeepEv& keep_ev,
                  const KeepEee& keep_eee) {
   Values values;
   std::set<std::uint32_t> nodes;
+  std::set<std::pair<int, int>> kept_ev;
   for (const SkeletonArc& arc : skeleton.arcs) {
-    if (!keep_ev(arc.vertex, arc.edge)) continue;
+    if (!keep_ev(arc)) continue;
+    kept_ev.emplace(arc.vertex, arc.edge);
     values.ev.push_back(value_of(skeleton, arc, {arc.vertex, arc.edge}));
     nodes.insert(arc.nodes.begin(), arc.nodes.end());
   }
@@ -60,7 +63,9 @@ Values values_of(const Skeleton& skeleton, bool with_ev, const KeepEv& keep_ev,
   for (std::uint32_t n = 0; with_ev && n < skeleton.nodes.size(); ++n) {
     if (skeleton.nodes[n].kind != NodeKind::EVE) continue;
     const auto g = skeleton.generators(skeleton.nodes[n]);
-    if (keep_ev(g[1].id, g[0].id) && keep_ev(g[1].id, g[2].id)) nodes.insert(n);
+    if (kept_ev.contains({g[1].id, g[0].id}) && kept_ev.contains({g[1].id, g[2].id})) {
+      nodes.insert(n);
+    }
   }
   for (const std::uint32_t n : nodes) {
     values.nodes.insert(value_of(skeleton, skeleton.nodes[n]));
@@ -70,7 +75,8 @@ Values values_of(const Skeleton& skeleton, bool with_ev, const KeepEv& keep_ev,
 
 Values all_values(const Skeleton& skeleton) {
   Values values = values_of(
-      skeleton, false, [](int, int) { return true; }, [](const EeeArc&) { return true; });
+      skeleton, false, [](const SkeletonArc&) { return true; },
+      [](const EeeArc&) { return true; });
   values.nodes.clear();
   for (const SkeletonNode& node : skeleton.nodes) {
     values.nodes.insert(value_of(skeleton, node));
@@ -119,6 +125,18 @@ struct Owner {
   }
 };
 
+/// Some lines of the arc end on the owner.
+bool ends_on(const SkeletonLines& lines, const SkeletonArc& arc, const Owner& owner) {
+  const auto there = [&](const std::vector<int>& faces) {
+    return std::ranges::any_of(faces, [&](int f) {
+      return owner.scene.objects()[owner.scene.faces()[f].object].name == owner.name;
+    });
+  };
+  return std::ranges::any_of(lines.pieces(arc), [&](const SkeletonLines::Piece& p) {
+    return there(p.line.from_faces) || there(p.line.to_faces);
+  });
+}
+
 void expect_parts_of_the_whole(const Scene& scene, const SkeletonRequest& request,
                                const std::string& first, const std::string& second,
                                Nodes nodes = Nodes::Equal) {
@@ -133,9 +151,9 @@ void expect_parts_of_the_whole(const Scene& scene, const SkeletonRequest& reques
   expect_same(all_values(pair),
               values_of(
                   whole, request.ev,
-                  [&](int vertex, int edge) {
-                    return between([&](const Owner& o) { return o.vertex(vertex); },
-                                   [&](const Owner& o) { return o.edge(edge); });
+                  [&](const SkeletonArc& arc) {
+                    return between([&](const Owner& o) { return o.vertex(arc.vertex); },
+                                   [&](const Owner& o) { return o.edge(arc.edge); });
                   },
                   [&](const EeeArc& arc) {
                     return between([&](const Owner& o) { return o.edge(arc.edges[0]); },
@@ -144,16 +162,24 @@ void expect_parts_of_the_whole(const Scene& scene, const SkeletonRequest& reques
               nodes);
   selection = {};
   selection.through = first;
+  const SkeletonLines lines(scene);
+  int ends_there = 0;
   const Skeleton part = build_selected(scene, request, selection);
   expect_same(all_values(part),
               values_of(
                   whole, request.ev,
-                  [&](int vertex, int edge) { return a.vertex(vertex) || a.edge(edge); },
+                  [&](const SkeletonArc& arc) {
+                    if (a.vertex(arc.vertex) || a.edge(arc.edge)) return true;
+                    const bool ends = ends_on(lines, arc, a);
+                    ends_there += ends;
+                    return ends;
+                  },
                   [&](const EeeArc& arc) {
                     return std::ranges::any_of(arc.edges,
                                                [&](int e) { return a.edge(e); });
                   }),
               nodes);
+  EXPECT_EQ(ends_there > 0, request.ev) << "no line ends on " << first;
   // No node is there twice.
   for (const Skeleton* one : {&pair, &part}) {
     std::set<NodeValue> seen;
