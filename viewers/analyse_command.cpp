@@ -356,6 +356,7 @@ Json missing_json(const Skeleton& skeleton, bool interrupted) {
   };
   add(skeleton.vertices_done, skeleton.vertices_asked, "the EV arcs of {}");
   add(skeleton.edges_done, skeleton.edges_asked, "the EEE arcs of {}");
+  add(skeleton.facets_done, skeleton.facets_asked, "the FF nodes of {}");
   return missing;
 }
 
@@ -405,6 +406,7 @@ ExitStatus run(const AnalyseOptions& options) {
 
   // 1. The scene and what is wrong with it.
   SkeletonRequest request;
+  request.ff = true;
   request.region = region_box(options.region);
   const Scene scene = load(options, folder);
   log.done("load the scene");
@@ -463,6 +465,8 @@ ExitStatus run(const AnalyseOptions& options) {
                         {"vertices_asked", skeleton.vertices_asked},
                         {"edges_done", skeleton.edges_done},
                         {"edges_asked", skeleton.edges_asked},
+                        {"facets_done", skeleton.facets_done},
+                        {"facets_asked", skeleton.facets_asked},
                         {"predicates", stage_counts(skeleton.predicates)}};
   report["stages"] = log.stages();
   report["missing"] = missing_json(skeleton, interruption.token().stop_requested());

@@ -186,11 +186,11 @@ Json info_json(const Scene& scene, const std::vector<Defect>& defects) {
 
 Json node_counts(const Skeleton& skeleton) {
   Json counts, end;
-  for (const char* kind : {"VV", "VEE", "EVE", "EEEE", "FvE", "FEE"}) {
+  for (const char* kind : {"VV", "VEE", "EVE", "EEEE", "FvE", "FEE", "FF"}) {
     counts[kind] = 0;
     end[kind] = 0;
   }
-  for (const char* kind : {"VV", "VEE", "EVE", "EEEE", "FvE", "FEE"}) {
+  for (const char* kind : {"VV", "VEE", "EVE", "EEEE", "FvE", "FEE", "FF"}) {
     counts[std::string(kind) + "_self"] = 0;
   }
   counts["degenerate"] = 0;
@@ -246,6 +246,26 @@ Json eee_arc_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) 
           {"edges", std::move(edges)},
           {"range", {arc.range[0], arc.range[1]}},
           {"nodes", {arc.nodes[0], arc.nodes[1]}}};
+}
+
+Json simplified_json(const Scene& scene, const Simplified& simplified, bool with_ids) {
+  Json j{{"feature_size", simplified.feature_size}};
+  j["edges"] = simplified.edges.size();
+  j["vertices"] = simplified.vertices.size();
+  j["objects"] = simplified.objects.size();
+  j["arcs"] = simplified.arcs.size();
+  if (!with_ids) return j;
+  Json names = Json::array();
+  for (const int o : simplified.objects) names.push_back(scene.objects()[o].name);
+  Json arcs = Json::array();
+  for (const Simplified::Arc& arc : simplified.arcs) {
+    arcs.push_back({{"vertex", arc.vertex}, {"edge", arc.edge}, {"range", arc.range}});
+  }
+  j["edge_ids"] = simplified.edges;
+  j["vertex_ids"] = simplified.vertices;
+  j["object_names"] = std::move(names);
+  j["arc_list"] = std::move(arcs);
+  return j;
 }
 
 StageCounts operator+(const StageCounts& a, const StageCounts& b) {

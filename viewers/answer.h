@@ -59,6 +59,12 @@ struct Cost {
 [[nodiscard]] Json eee_arc_json(const Scene& scene, const Skeleton& skeleton,
                                 std::size_t arc);
 
+/// What a feature size left out: {"feature_size", "edges", "vertices", "objects",
+/// "arcs"}, all counts; with ids also "edge_ids", "vertex_ids", "object_names" and
+/// "arc_list".
+[[nodiscard]] Json simplified_json(const Scene& scene, const Simplified& simplified,
+                                   bool with_ids);
+
 StageCounts operator+(const StageCounts& a, const StageCounts& b);
 StageCounts operator-(const StageCounts& a, const StageCounts& b);
 

@@ -59,6 +59,19 @@ void add_budget_option(CLI::App& app, double& seconds) {
       ->check(CLI::PositiveNumber);
 }
 
+void add_size_budget_option(CLI::App& app, std::size_t& bytes) {
+  app.add_option_function<double>(
+         "--budget-mb",
+         [&bytes](double megabytes) {
+           bytes = static_cast<std::size_t>(std::min(megabytes * 1048576, 0x1p62));
+         },
+         "megabytes (2^20 bytes) of nodes and arcs after which a partial answer is "
+         "given, with exit status 3; the process needs about three times as much "
+         "(default: no limit)")
+      ->type_name("M")
+      ->check(CLI::PositiveNumber);
+}
+
 void add_region_option(CLI::App& app, std::vector<double>& region) {
   app.add_option(
          "--region", region,
@@ -69,11 +82,13 @@ void add_region_option(CLI::App& app, std::vector<double>& region) {
       ->expected(6);
 }
 
-std::optional<std::array<Point, 2>> region_box(const std::vector<double>& region) {
+std::optional<std::array<Point, 2>> region_box(const std::vector<double>& region,
+                                               const char* option) {
   if (region.empty()) return std::nullopt;
   const Point low(region[0], region[1], region[2]), high(region[3], region[4], region[5]);
   if (!low.allFinite() || !high.allFinite() || (low.array() > high.array()).any()) {
-    throw UsageError("--region: the first corner must not exceed the second");
+    throw UsageError(
+        fmt::format("{}: the first corner must not exceed the second", option));
   }
   return std::array<Point, 2>{low, high};
 }

@@ -47,12 +47,14 @@ void add_scene_argument(CLI::App& app, CommonOptions& options, bool required = t
 void add_file_argument(CLI::App& app, CommonOptions& options, const std::string& help);
 void add_common_options(CLI::App& app, CommonOptions& options);
 void add_budget_option(CLI::App& app, double& seconds);
+/// --budget-mb, in bytes; stays as it is when not given.
+void add_size_budget_option(CLI::App& app, std::size_t& bytes);
 void add_region_option(CLI::App& app, std::vector<double>& region);
 
 /// The six numbers of --region as a box; nullopt when none were given.  Throws UsageError
 /// when a lower corner is above its upper one.
 [[nodiscard]] std::optional<std::array<Point, 2>> region_box(
-    const std::vector<double>& region);
+    const std::vector<double>& region, const char* option = "--region");
 
 /// Writes the answer where --json says, if anywhere.
 void write_answer(const CommonOptions& options, const Json& answer);

@@ -431,6 +431,9 @@ std::string kind_name(const SkeletonNode& node) {
     case NodeKind::FEE:
       name = "FEE";
       break;
+    case NodeKind::FF:
+      name = "FF";
+      break;
     case NodeKind::Saddle:
       name = "saddle";
       break;

@@ -92,6 +92,7 @@ const char* meaning(const std::string& kind) {
       {"FvE", "along a face through its vertex to an edge: support begins or ends"},
       {"EEEE", "four edges"},
       {"FEE", "across a face in its plane, to two edges: support begins or ends"},
+      {"FF", "across two faces, in the planes of both"},
       {"saddle", "a corner that is not convex, along two of its edges"},
       {"pierce", "where an edge enters a face of an overlapping solid"},
       {"degenerate", "more contacts than four degrees of freedom need"}};

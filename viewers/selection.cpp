@@ -1,13 +1,8 @@
 #include "viewers/selection.h"
 
 #include <algorithm>
-#include <chrono>
 #include <functional>
-#include <map>
 #include <set>
-#include <tuple>
-
-#include "viewers/answer.h"
 
 namespace sightline::viewers {
 namespace {
@@ -17,11 +12,11 @@ class Members {
  public:
   Members(const Scene& scene, const std::string& group) {
     std::set<int> objects;
-    std::vector<char> facets(scene.facets().size());
+    facets_.resize(scene.facets().size());
     points_.resize(scene.points().size());
     edges_.resize(scene.edges().size());
     for (const int f : scene.faces_named(group)) {
-      facets[scene.faces()[f].facet] = 1;
+      facets_[scene.faces()[f].facet] = 1;
       objects.insert(scene.faces()[f].object);
       for (const int p : scene.face_points(f)) points_[p] = 1;
     }
@@ -30,17 +25,18 @@ class Members {
       // A merged edge names one face of each facet along it.
       edges_[e] =
           std::ranges::any_of(scene.edges()[e].sides, [&](const Edge::Side& side) {
-            return facets[scene.faces()[side.face].facet] != 0;
+            return facets_[scene.faces()[side.face].facet] != 0;
           });
     }
   }
 
   [[nodiscard]] const std::vector<int>& objects() const { return objects_; }
   [[nodiscard]] bool vertex(int p) const { return points_[p] != 0; }
+  [[nodiscard]] bool facet(int f) const { return facets_[f] != 0; }
   [[nodiscard]] bool edge(int e) const { return e >= 0 && edges_[e] != 0; }
 
  private:
-  std::vector<char> points_, edges_;
+  std::vector<char> points_, edges_, facets_;
   std::vector<int> objects_;
 };
 
@@ -48,6 +44,21 @@ class Members {
 struct Part {
   std::function<bool(int vertex, int edge)> ev;
   std::function<bool(const EeeArc&)> eee;
+  std::function<bool(int facet, int other)> ff;
+
+  /// A line of two facets that both belong to it.
+  [[nodiscard]] bool joins_facets(std::span<const Generator> generators) const {
+    for (std::size_t i = 0; i < generators.size(); ++i) {
+      for (std::size_t j = i + 1; j < generators.size(); ++j) {
+        if (generators[i].kind == GeneratorKind::Face &&
+            generators[j].kind == GeneratorKind::Face &&
+            ff(generators[i].id, generators[j].id)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
 
   /// Two EV arcs of the part line up through a corner there.
   [[nodiscard]] bool lines_up(std::span<const Generator> generators) const {
@@ -73,14 +84,22 @@ void copy_node(const Skeleton& from, const SkeletonNode& node, Skeleton& to) {
 }
 
 /// The part's arcs, the nodes at their ends and where its EV arcs line up; renumbered.
-Skeleton filtered(const Skeleton& whole, const Part& part, bool with_ev) {
+Skeleton filtered(const Skeleton& whole, const Part& part,
+                  const SkeletonRequest& request) {
   Skeleton out;
   out.complete = whole.complete;
+  out.stopped_by = whole.stopped_by;
   out.vertices_done = whole.vertices_done;
   out.vertices_asked = whole.vertices_asked;
   out.edges_done = whole.edges_done;
   out.edges_asked = whole.edges_asked;
+  out.facets_done = whole.facets_done;
+  out.facets_asked = whole.facets_asked;
   out.predicates = whole.predicates;
+  out.simplified = whole.simplified;
+  std::erase_if(out.simplified.arcs, [&](const Simplified::Arc& arc) {
+    return !part.ev(arc.vertex, arc.edge);
+  });
   for (const SkeletonArc& arc : whole.arcs) {
     if (part.ev(arc.vertex, arc.edge)) out.arcs.push_back(arc);
   }
@@ -93,7 +112,11 @@ Skeleton filtered(const Skeleton& whole, const Part& part, bool with_ev) {
   std::vector<std::uint32_t> renamed(whole.nodes.size());
   for (std::size_t n = 0; n < whole.nodes.size(); ++n) {
     const SkeletonNode& node = whole.nodes[n];
-    if (!kept[n] && !(with_ev && part.lines_up(whole.generators(node)))) continue;
+    const auto generators = whole.generators(node);
+    if (!kept[n] && !(request.ev && part.lines_up(generators)) &&
+        !(request.ff && part.joins_facets(generators))) {
+      continue;
+    }
     renamed[n] = static_cast<std::uint32_t>(out.nodes.size());
     copy_node(whole, node, out);
   }
@@ -106,59 +129,9 @@ Skeleton filtered(const Skeleton& whole, const Part& part, bool with_ev) {
   return out;
 }
 
-/// What tells a node from all others, whichever way along its line it was found.
-auto key_of(const SkeletonNode& node, std::span<const Generator> generators) {
-  std::vector<Generator> forward(generators.begin(), generators.end());
-  std::vector<Generator> backward(generators.rbegin(), generators.rend());
-  const bool any_end = node.kind != NodeKind::Degenerate && node.end;
-  return std::tuple(node.kind, any_end, node.second, std::min(forward, backward));
-}
-
-/// The union of two skeletons of one scene.
-Skeleton united(const Skeleton& a, const Skeleton& b) {
-  Skeleton both;
-  both.complete = a.complete && b.complete;
-  both.vertices_done = a.vertices_done + b.vertices_done;
-  both.vertices_asked = a.vertices_asked + b.vertices_asked;
-  both.edges_done = a.edges_done + b.edges_done;
-  both.edges_asked = a.edges_asked + b.edges_asked;
-  both.predicates = a.predicates + b.predicates;
-  std::map<decltype(key_of({}, {})), std::uint32_t> known;
-  std::map<std::tuple<int, int, double>, SkeletonArc> arcs;
-  std::set<std::tuple<std::array<std::int32_t, 3>, double>> eee_arcs;
-  for (const Skeleton* one : {&a, &b}) {
-    std::vector<std::uint32_t> renamed;
-    for (const SkeletonNode& node : one->nodes) {
-      const auto [entry, is_new] =
-          known.try_emplace(key_of(node, one->generators(node)),
-                            static_cast<std::uint32_t>(both.nodes.size()));
-      renamed.push_back(entry->second);
-      if (is_new) {
-        copy_node(*one, node, both);
-      } else {
-        both.nodes[entry->second].end |= node.end;
-      }
-    }
-    for (SkeletonArc arc : one->arcs) {
-      arc.nodes = {renamed[arc.nodes[0]], renamed[arc.nodes[1]]};
-      arcs.try_emplace({arc.vertex, arc.edge, arc.range[0]}, arc);
-    }
-    for (EeeArc arc : one->eee_arcs) {
-      arc.nodes = {renamed[arc.nodes[0]], renamed[arc.nodes[1]]};
-      if (eee_arcs.emplace(arc.edges, arc.range[0]).second) both.eee_arcs.push_back(arc);
-    }
-  }
-  for (const auto& [key, arc] : arcs) both.arcs.push_back(arc);
-  return both;
-}
-
 Skeleton build_between(const Scene& scene, SkeletonRequest request,
                        const std::array<std::string, 2>& groups) {
   const Members a(scene, groups[0]), b(scene, groups[1]);
-  std::set<int> objects(a.objects().begin(), a.objects().end());
-  objects.insert(b.objects().begin(), b.objects().end());
-  request.vertex_objects.assign(objects.begin(), objects.end());
-  request.edge_objects = request.vertex_objects;
   request.outer_objects = {a.objects(), b.objects()};
   const Part part{[&](int vertex, int edge) {
                     return (a.vertex(vertex) && b.edge(edge)) ||
@@ -167,31 +140,18 @@ Skeleton build_between(const Scene& scene, SkeletonRequest request,
                   [&](const EeeArc& arc) {
                     return (a.edge(arc.edges[0]) && b.edge(arc.edges[2])) ||
                            (b.edge(arc.edges[0]) && a.edge(arc.edges[2]));
+                  },
+                  [&](int f, int g) {
+                    return (a.facet(f) && b.facet(g)) || (b.facet(f) && a.facet(g));
                   }};
-  return filtered(build_skeleton(scene, request), part, request.ev);
+  return filtered(build_skeleton(scene, request), part, request);
 }
 
-Skeleton build_through(const Scene& scene, const SkeletonRequest& request,
+Skeleton build_through(const Scene& scene, SkeletonRequest request,
                        const std::string& group) {
-  const Members members(scene, group);
-  const Part part{
-      [&](int vertex, int edge) { return members.vertex(vertex) || members.edge(edge); },
-      [&](const EeeArc& arc) {
-        return std::ranges::any_of(arc.edges, [&](int e) { return members.edge(e); });
-      }};
-  SkeletonRequest second = request;
-  second.edge_objects = members.objects();
-  second.through_objects = members.objects();
-  if (!request.ev) return filtered(build_skeleton(scene, second), part, false);
-  // EV arcs by vertex, then by edge; the EEE arcs with the second.
-  SkeletonRequest first = request;
-  first.eee = false;
-  first.vertex_objects = members.objects();
-  const auto start = std::chrono::steady_clock::now();
-  const Skeleton by_vertex = build_skeleton(scene, first);
-  second.budget_seconds -=
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return filtered(united(by_vertex, build_skeleton(scene, second)), part, true);
+  request.through_faces = scene.faces_named(group);
+  request.through_far_ends = true;
+  return build_skeleton(scene, request);
 }
 
 }  // namespace

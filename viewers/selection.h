@@ -14,7 +14,8 @@ namespace sightline::viewers {
 struct Selection {
   /// EV: vertex on one group and edge on the other; EEE: outer edges one on each.
   std::optional<std::array<std::string, 2>> between;
-  /// EV: vertex or edge on this group; EEE: any of the three edges.
+  /// Lines that meet this group.  EV: vertex or edge on it, or some lines that end on it;
+  /// EEE: any of the three edges; FF: one of the two facets.
   std::optional<std::string> through;
 };
 

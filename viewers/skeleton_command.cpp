@@ -19,11 +19,16 @@ namespace {
 
 struct SkeletonOptions : CommonOptions {
   std::string events = "solid";
-  std::vector<std::string> kinds{"EV", "EEE"};
+  std::vector<std::string> kinds{"EV", "EEE", "FF"};
   std::vector<std::string> between;
   std::string through;
   double budget = std::numeric_limits<double>::infinity();
+  std::size_t budget_bytes = std::numeric_limits<std::size_t>::max();
   std::vector<double> region;
+  std::vector<double> near;
+  double radius = 0;
+  std::vector<std::vector<double>> between_boxes;
+  double feature_size = 0;
   bool list = false;
   bool extend = false;
   std::string output;
@@ -57,9 +62,10 @@ void check(const SkeletonOptions& options) {
     throw UsageError("--events polygon is not available in this version; use solid");
   }
   for (const std::string& kind : options.kinds) {
-    if (kind != "EV" && kind != "EEE") {
+    if (kind != "EV" && kind != "EEE" && kind != "FF") {
       throw UsageError(fmt::format(
-          "--kinds: '{}' is not available in this version; available: EV, EEE", kind));
+          "--kinds: '{}' is not available in this version; available: EV, EEE, FF",
+          kind));
     }
   }
   if (!options.between.empty() && !options.through.empty()) {
@@ -72,6 +78,22 @@ void check(const SkeletonOptions& options) {
         "--region");
   }
   for (const std::string& point : options.crossed) point_of(point);
+  if (options.near.empty() != (options.radius == 0)) {
+    throw UsageError("--near and --radius belong together");
+  }
+}
+
+std::vector<double> box_of(const std::string& text) {
+  std::vector<double> numbers;
+  for (const std::string& word : CLI::detail::split(text, ',')) {
+    double x = 0;
+    if (!CLI::detail::lexical_cast(word, x)) numbers.clear();
+    numbers.push_back(x);
+  }
+  if (numbers.size() != 6) {
+    throw UsageError(fmt::format("--between-boxes: '{}' is not six numbers", text));
+  }
+  return numbers;
 }
 
 SkeletonRequest request_of(const SkeletonOptions& options) {
@@ -82,6 +104,18 @@ SkeletonRequest request_of(const SkeletonOptions& options) {
   request.region = region_box(options.region);
   request.ev = std::ranges::find(options.kinds, "EV") != options.kinds.end();
   request.eee = std::ranges::find(options.kinds, "EEE") != options.kinds.end();
+  request.ff = std::ranges::find(options.kinds, "FF") != options.kinds.end();
+  request.budget_bytes = options.budget_bytes;
+  request.feature_size = options.feature_size;
+  if (!options.near.empty()) {
+    const Point centre(options.near[0], options.near[1], options.near[2]);
+    if (!centre.allFinite()) throw UsageError("--near: three finite numbers");
+    request.near = {centre, options.radius};
+  }
+  if (!options.between_boxes.empty()) {
+    request.between_boxes = {*region_box(options.between_boxes[0], "--between-boxes"),
+                             *region_box(options.between_boxes[1], "--between-boxes")};
+  }
   return request;
 }
 
@@ -100,7 +134,36 @@ Json options_json(const SkeletonOptions& options) {
   if (!options.between.empty()) j["between"] = options.between;
   if (!options.through.empty()) j["through"] = options.through;
   if (!options.region.empty()) j["region"] = options.region;
+  if (!options.near.empty())
+    j["near"] = {{"at", options.near}, {"radius", options.radius}};
+  if (!options.between_boxes.empty()) j["between_boxes"] = options.between_boxes;
   return j;
+}
+
+const char* stopped_by_name(StoppedBy what) {
+  switch (what) {
+    case StoppedBy::Seconds:
+      return "seconds";
+    case StoppedBy::Bytes:
+      return "megabytes";
+    case StoppedBy::Request:
+      return "interruption";
+    case StoppedBy::Nothing:
+      break;
+  }
+  return "nothing";
+}
+
+Json missing_json(const Skeleton& skeleton) {
+  Json missing = Json::array();
+  const auto add = [&](const char* what, std::size_t done, std::size_t asked) {
+    if (done == asked) return;
+    missing.push_back(fmt::format("{} of the last {} of {}", what, asked - done, asked));
+  };
+  add("EV arcs, by vertex:", skeleton.vertices_done, skeleton.vertices_asked);
+  add("EEE arcs, by first edge:", skeleton.edges_done, skeleton.edges_asked);
+  add("FF nodes, by first facet:", skeleton.facets_done, skeleton.facets_asked);
+  return missing;
 }
 
 void print_summary(const Scene& scene, const Skeleton& skeleton, const Json& answer) {
@@ -117,14 +180,30 @@ void print_summary(const Scene& scene, const Skeleton& skeleton, const Json& ans
   }
   const Json& p = answer["predicates"];
   std::cout << fmt::format(
-      "  vertices done: {} of {}, edges: {} of {}\n  {:.3f} s, {:.0f} MiB, predicates: "
+      "  vertices done: {} of {}, edges: {} of {}, facets: {} of {}\n  {:.3f} s, {:.0f} "
+      "MiB, predicates: "
       "{} "
       "double, {} interval, {} exact\n",
       skeleton.vertices_done, skeleton.vertices_asked, skeleton.edges_done,
-      skeleton.edges_asked, answer["seconds"].get<double>(),
+      skeleton.edges_asked, skeleton.facets_done, skeleton.facets_asked,
+      answer["seconds"].get<double>(),
       answer["peak_memory_bytes"].get<double>() / 1048576,
       p["double"].get<std::uint64_t>(), p["interval"].get<std::uint64_t>(),
       p["exact"].get<std::uint64_t>());
+  if (skeleton.stopped_by != StoppedBy::Nothing) {
+    std::cout << fmt::format("  stopped by {}; missing:\n",
+                             stopped_by_name(skeleton.stopped_by));
+    for (const Json& line : answer["missing"]) {
+      std::cout << fmt::format("    {}\n", line.get<std::string>());
+    }
+  }
+  const Simplified& s = skeleton.simplified;
+  if (s.feature_size > 0) {
+    std::cout << fmt::format(
+        "  feature size {} left out: {} edges, {} vertices, {} objects, {} short arcs\n",
+        s.feature_size, s.edges.size(), s.vertices.size(), s.objects.size(),
+        s.arcs.size());
+  }
 }
 
 void print_arcs(const std::string& what, const Json& arcs) {
@@ -236,6 +315,14 @@ ExitStatus run(const SkeletonOptions& options) {
   answer["edges_done"] = skeleton.edges_done;
   answer["edges_asked"] = skeleton.edges_asked;
   if (!queries.is_null()) answer.update(queries);
+  answer["facets_done"] = skeleton.facets_done;
+  answer["facets_asked"] = skeleton.facets_asked;
+  answer["skeleton_bytes"] = skeleton.bytes();
+  if (skeleton.stopped_by != StoppedBy::Nothing) {
+    answer["stopped_by"] = stopped_by_name(skeleton.stopped_by);
+    answer["missing"] = missing_json(skeleton);
+  }
+  answer["simplified"] = simplified_json(scene, skeleton.simplified, options.list);
 
   std::optional<SkeletonLines> lines;
   if (options.list || options.extend) lines.emplace(scene);
@@ -287,8 +374,9 @@ Command add_skeleton_command(CLI::App& app) {
       ->add_option(
           "--kinds", options->kinds,
           "kinds of critical line sets, separated by commas: EV, through a vertex "
-          "and an edge, EEE, through three edges (default EV,EEE)")
-      ->type_name("EV,EEE")
+          "and an edge, EEE, through three edges; and FF, lines in the planes of two "
+          "faces (default EV,EEE,FF)")
+      ->type_name("EV,EEE,FF")
       ->delimiter(',');
   command
       ->add_option(
@@ -299,11 +387,42 @@ Command add_skeleton_command(CLI::App& app) {
       ->type_name("A B")
       ->expected(2);
   command
-      ->add_option("--through", options->through,
-                   "only arcs with the vertex or one of the edges on this group")
+      ->add_option(
+          "--through", options->through,
+          "only lines that meet this group: EV arcs with the vertex or the edge on it "
+          "or with lines that end on it, EEE arcs with an edge on it, FF with a "
+          "face of it")
       ->type_name("GROUP");
   add_region_option(*command, options->region);
+  command
+      ->add_option("--near", options->near,
+                   "only vertices and edges no farther than --radius from the point "
+                   "x,y,z (an edge with some point of it)")
+      ->type_name("x,y,z")
+      ->delimiter(',')
+      ->expected(3);
+  command->add_option("--radius", options->radius, "of --near, in scene units")
+      ->type_name("R")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--between-boxes",
+          [options](const std::vector<std::string>& boxes) {
+            options->between_boxes = {box_of(boxes[0]), box_of(boxes[1])};
+          },
+          "only arcs between two boxes, each x0,y0,z0,x1,y1,z1: EV arcs with the vertex "
+          "in one and the edge in the other, EEE arcs with the outer edges one in each")
+      ->type_name("BOX BOX")
+      ->expected(2);
+  command
+      ->add_option("--feature-size", options->feature_size,
+                   "features below this size in scene units make no events but still "
+                   "occlude: shorter edges, corners with only such edges, EV arcs on a "
+                   "shorter stretch; what is left out is reported (default 0: nothing)")
+      ->type_name("L")
+      ->check(CLI::NonNegativeNumber);
   add_budget_option(*command, options->budget);
+  add_size_budget_option(*command, options->budget_bytes);
   command->add_flag("--list", options->list,
                     "add every node and arc to the JSON answer: generators, line, "
                     "contacts, free segment and what ends it");
