@@ -142,7 +142,8 @@ bool EdgePairs::never_grazed_from(const Box& box) const {
          (wedge_[0].positive_on(c, b.half) && wedge_[1].positive_on(c, b.half));
 }
 
-void EdgePairs::visit(int i, std::vector<FoundArc>& out) {
+void EdgePairs::visit(int i, const std::function<bool()>& stop,
+                      std::vector<FoundArc>& out) {
   if (!selection_.has(i)) return;
   prepare(i);
   const Bvh& tree = g_.ridge_tree();
@@ -163,6 +164,7 @@ void EdgePairs::visit(int i, std::vector<FoundArc>& out) {
     for (std::uint32_t k = 0; k < node.count; ++k) {
       const int j = static_cast<int>(tree.items()[node.first + k]);
       if (j > i && selection_.has(j) && selection_.has_outer(i, j)) {
+        if (stop()) return;
         visit_pair(i, j, out);
       }
     }

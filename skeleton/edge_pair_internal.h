@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -42,8 +43,9 @@ class EdgePairs {
   EdgePairs(const Generators& generators, const Carriers& carriers,
             const EeePart& part);
 
-  /// Appends the arcs between ridge i and all ridges of higher number.
-  void visit(int i, std::vector<FoundArc>& out);
+  /// Appends the arcs between ridge i and all ridges of higher number; breaks off, with
+  /// some of them, once `stop` says so.
+  void visit(int i, const std::function<bool()>& stop, std::vector<FoundArc>& out);
 
  private:
   struct PlaneValues {

@@ -126,7 +126,8 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
       [&] { return std::make_unique<EdgePairs>(generators, carriers, part); },
       [&](EdgePairs& pairs, std::size_t i) {
         std::vector<FoundArc> arcs;
-        pairs.visit(firsts[i], arcs);
+        pairs.visit(
+            firsts[i], [&] { return must_stop(request, start); }, arcs);
         std::sort(arcs.begin(), arcs.end(), [](const FoundArc& a, const FoundArc& b) {
           return std::pair(a.arc.edges, a.arc.range) <
                  std::pair(b.arc.edges, b.arc.range);

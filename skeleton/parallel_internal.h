@@ -34,13 +34,20 @@ namespace sightline::internal {
           a.by_exact - b.by_exact};
 }
 
+/// The request's budget, counted from `start`, has ended or a stop is requested.
+[[nodiscard]] inline bool must_stop(const Request& request,
+                                    std::chrono::steady_clock::time_point start) {
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  return request.stop.stop_requested() || elapsed.count() > request.budget_seconds;
+}
+
 /// Calls step(worker, i) for i = 0, ..., count - 1 on several threads, with a worker per
 /// thread from make(), and consume(i, result) with what it returns: one at a time, in
-/// order, soon after, so that results need not be held.  Stops early when the request's
-/// budget, counted from `start`, ends or a stop is requested: what was begun is consumed,
-/// a prefix of all; and when consume returns false, after which nothing is consumed.
-/// Returns whether all was consumed and, if not, why.  Progress goes from progress[0] to
-/// progress[1].
+/// order, soon after, so that results need not be held.  Stops early once must_stop():
+/// what is finished by then is consumed, a prefix of all, so that a step that asks
+/// must_stop() itself may break off.  Stops, too, when consume returns false, after which
+/// nothing is consumed.  Returns why not all was consumed, or Nothing.  Progress goes
+/// from progress[0] to progress[1].
 template <class Make, class Step, class Consume>
 StoppedBy for_each_parallel(std::size_t count, const Request& request,
                             std::chrono::steady_clock::time_point start,
@@ -82,13 +89,14 @@ StoppedBy for_each_parallel(std::size_t count, const Request& request,
     Worker& worker = workers.local();
     if (!worker) worker = make();
     for (std::size_t i = first; i < std::min(count, first + kBatch); ++i) {
-      const std::chrono::duration<double> elapsed =
-          std::chrono::steady_clock::now() - start;
-      if (request.stop.stop_requested() || elapsed.count() > request.budget_seconds) {
-        stopped = true;
-      }
+      if (must_stop(request, start)) stopped = true;
       if (stopped.load(std::memory_order_relaxed)) break;
-      batch->results.emplace_back(step(*worker, i));
+      Result result = step(*worker, i);
+      if (must_stop(request, start)) {
+        stopped = true;
+        break;
+      }
+      batch->results.emplace_back(std::move(result));
     }
     batch->counts = difference(thread_stage_counts(), at_first);
     return batch;

@@ -66,7 +66,7 @@ void add_size_budget_option(CLI::App& app, std::size_t& bytes) {
            bytes = static_cast<std::size_t>(std::min(megabytes * 1048576, 0x1p62));
          },
          "megabytes (2^20 bytes) of nodes and arcs after which a partial answer is "
-         "given, with exit status 3; the process needs about three times as much "
+         "given, with exit status 3; the process needs two to three times as much "
          "(default: no limit)")
       ->type_name("M")
       ->check(CLI::PositiveNumber);

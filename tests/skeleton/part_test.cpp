@@ -289,6 +289,19 @@ TEST_F(Parts, AboveAFeatureSize) {
   }
 }
 
+// Decided exactly: an edge of just that length is large enough.
+TEST(FeatureSize, AnEdgeOfThatLengthStays) {
+  const Scene scene(
+      testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}, {{3, 0.5, 0.25}, {4, 1.5, 1.25}}}));
+  const auto left_out = [&](double size) {
+    SkeletonRequest request;
+    request.feature_size = size;
+    return build_skeleton(scene, request).simplified.edges.size();
+  };
+  EXPECT_EQ(left_out(1), 0u);
+  EXPECT_EQ(left_out(std::nextafter(1, 2)), 24u);
+}
+
 TEST_F(Parts, FeatureSizeZeroIsEverything) {
   SkeletonRequest request = everything();
   request.feature_size = 0;
