@@ -86,6 +86,7 @@ EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& 
                      : ArcRef{ArcKind::EEE, static_cast<std::uint32_t>(i - ev)},
               found[k]);
         }
+        return true;
       });
   complete_ = piece_starts_.size() == count + 1;
   piece_starts_.resize(count + 1, static_cast<std::uint32_t>(pieces_.size()));

@@ -156,13 +156,15 @@ const char* stopped_by_name(StoppedBy what) {
 
 Json missing_json(const Skeleton& skeleton) {
   Json missing = Json::array();
-  const auto add = [&](const char* what, std::size_t done, std::size_t asked) {
+  const auto add = [&](const char* arcs, std::size_t done, std::size_t asked,
+                       const char* generators) {
     if (done == asked) return;
-    missing.push_back(fmt::format("{} of the last {} of {}", what, asked - done, asked));
+    missing.push_back(
+        fmt::format("the {} of {} of {} {}", arcs, asked - done, asked, generators));
   };
-  add("EV arcs, by vertex:", skeleton.vertices_done, skeleton.vertices_asked);
-  add("EEE arcs, by first edge:", skeleton.edges_done, skeleton.edges_asked);
-  add("FF nodes, by first facet:", skeleton.facets_done, skeleton.facets_asked);
+  add("EV arcs", skeleton.vertices_done, skeleton.vertices_asked, "vertices");
+  add("EEE arcs", skeleton.edges_done, skeleton.edges_asked, "first edges");
+  add("FF nodes", skeleton.facets_done, skeleton.facets_asked, "first faces");
   return missing;
 }
 

@@ -171,7 +171,8 @@ StoredSkeleton skeleton_from(const Json& j) {
 void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
                          const Skeleton& skeleton, const SkeletonLines* lines) {
   std::string text = head.dump(1);
-  text.erase(text.find_last_not_of("}\n ") + 1);  // leave the object open
+  text.erase(text.rfind('}'));  // leave the object open
+  text.erase(text.find_last_not_of("\n ") + 1);
   stream << text << ",\n \"list\": {\n  \"nodes\": [";
   for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
     Json node = node_json(scene, skeleton, i);

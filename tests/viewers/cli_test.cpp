@@ -192,6 +192,10 @@ TEST_F(Cli, BadUsageIsRefusedInOneLine) {
   expect_refused({"skeleton", kRoom, "--crossed", "1,1,1", "2,2,2x"}, "2,2,2x");
   expect_refused({"skeleton", kRoom, "--seen-from", "nothing"}, "nothing");
   expect_refused({"skeleton", kRoom, "--saved", "none.json"}, "none.json");
+  expect_refused({"skeleton", kRoom, "--budget-mb", "0"}, "--budget-mb");
+  expect_refused({"skeleton", kRoom, "--near", "1,2,3"}, "--radius");
+  expect_refused({"skeleton", kRoom, "--between-boxes", "0,0,0,1,1,1", "1,2"}, "1,2");
+  expect_refused({"skeleton", kRoom, "--feature-size", "-1"}, "--feature-size");
   expect_refused({"analyse", kRoom, "--only", "shadows"}, "shadows");
   expect_refused({"view", kRoom}, "--png");
   expect_refused({"info", kRoom, "--json", (folder_ / "none/answer.json").string()},
@@ -202,7 +206,8 @@ TEST_F(Cli, HelpNamesEveryOption) {
   const Run r = run({"skeleton", "--help"});
   EXPECT_EQ(r.status, 0);
   for (const char* option :
-       {"--events", "--kinds", "--between", "--through", "--region", "--budget", "--list",
+       {"--events", "--kinds", "--between", "--through", "--region", "--near", "--radius",
+        "--between-boxes", "--feature-size", "--budget", "--budget-mb", "--list",
         "--output", "--saved", "--seen-from", "--between-ends", "--crossed", "--json",
         "--vtk", "--threads", "--precision"}) {
     EXPECT_NE(r.out.find(option), std::string::npos) << option;
@@ -260,7 +265,7 @@ TEST_F(Cli, SkeletonKinds) {
   const json both = answer({"skeleton", kRoom});
   const json ev = answer({"skeleton", kRoom, "--kinds", "EV"});
   const json eee = answer({"skeleton", kRoom, "--kinds", "EEE"});
-  EXPECT_EQ(both.at("options").at("kinds"), json::parse(R"(["EV","EEE"])"));
+  EXPECT_EQ(both.at("options").at("kinds"), json::parse(R"(["EV","EEE","FF"])"));
   for (const json& j : {both, ev, eee}) {
     for (const char* kind : {"EV", "EEE", "EV_self", "EEE_self"}) {
       EXPECT_TRUE(j.at("arcs").at(kind).is_number_unsigned() ||
@@ -406,6 +411,42 @@ TEST_F(Cli, BudgetGivesAPartialAnswer) {
   EXPECT_LT(j.at("edges_done"), j.at("edges_asked"));
 }
 
+TEST_F(Cli, SizeBudgetGivesTheSamePartialAnswer) {
+  const json j = answer({"skeleton", kRoom, "--budget-mb", "0.05"}, 3);
+  EXPECT_EQ(j.at("stopped_by"), "megabytes");
+  EXPECT_EQ(j.at("missing").size(), 3U);
+  EXPECT_GE(j.at("skeleton_bytes"), 52428);
+  const json one =
+      answer({"skeleton", kRoom, "--budget-mb", "0.05", "--threads", "1"}, 3);
+  EXPECT_EQ(one.at("arcs"), j.at("arcs"));
+  EXPECT_EQ(one.at("nodes"), j.at("nodes"));
+}
+
+TEST_F(Cli, FeatureSizeListsWhatItLeavesOut) {
+  const json all = answer({"skeleton", kRoom, "--kinds", "EV"});
+  EXPECT_EQ(all.at("simplified").at("edges"), 0);
+  const json j =
+      answer({"skeleton", kRoom, "--kinds", "EV", "--feature-size", "0.3", "--list"});
+  EXPECT_LT(j.at("arcs").at("EV"), all.at("arcs").at("EV"));
+  const json& s = j.at("simplified");
+  EXPECT_GT(s.at("edges"), 0);
+  EXPECT_EQ(s.at("edge_ids").size(), s.at("edges"));
+  EXPECT_EQ(s.at("arc_list").size(), s.at("arcs"));
+}
+
+TEST_F(Cli, PartsNearAPointAndBetweenBoxes) {
+  const json all = answer({"skeleton", kRoom});
+  for (const std::vector<std::string>& part :
+       {std::vector<std::string>{"--near", "3,3,1", "--radius", "2"},
+        {"--between-boxes", "0,0,0,3,3,3", "3,0,0,6,6,3"}}) {
+    std::vector<std::string> arguments{"skeleton", kRoom};
+    arguments.insert(arguments.end(), part.begin(), part.end());
+    const json j = answer(arguments);
+    EXPECT_GT(j.at("arcs").at("EV"), 0) << part[0];
+    EXPECT_LT(j.at("arcs").at("EV"), all.at("arcs").at("EV")) << part[0];
+  }
+}
+
 /// True once the process blocks SIGINT, which it does when it is ready for one.
 bool awaits_interrupt(pid_t pid) {
   std::istringstream status(contents("/proc/" + std::to_string(pid) + "/status"));
@@ -471,7 +512,7 @@ TEST_F(Cli, AnalyseFillsAFolder) {
 TEST_F(Cli, AnalyseSaysWhatIsMissing) {
   const fs::path folder = folder_ / "report";
   const json j = answer({"analyse", "-o", folder.string(), "--budget", "1e-6"}, 3);
-  EXPECT_EQ(j.at("missing").size(), 2U);  // EV and EEE
+  EXPECT_EQ(j.at("missing").size(), 3U);  // EV, EEE and FF
   EXPECT_NE(contents(folder / "index.html").find("not complete"), std::string::npos);
   // The built-in scene is the sample file.
   EXPECT_EQ(contents(folder / "room.obj"), contents(kRoom));
