@@ -13,7 +13,10 @@ namespace {
 std::uint32_t add_node_at(const Generators& g, const Point& v, const ExactPoint& x,
                           const LineScan& scan, VertexView& out) {
   const NodeContacts c = contacts_between(g, scan);
-  return out.add_node(c.kind, c.self, c.end, c.generators, {v, rounded(x)});
+  const std::uint32_t node =
+      out.add_node(c.kind, c.self, c.end, c.generators, {v, rounded(x)});
+  out.special[node] = 1;
+  return node;
 }
 
 // The point strictly inside both segments where they cross, for four points in a plane
@@ -151,7 +154,6 @@ std::uint32_t contact_node(const Generators& g, const Star& star, const Ridge& r
   }
   std::sort(faces.begin(), faces.end());
   faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-  out.degenerate = true;
   const ExactPoint x0 = exact_point(scene.point(ridge.points[0]));
   const ExactPoint x1 = exact_point(scene.point(ridge.points[1]));
   const LineThrough line{scene.point(ridge.points[0]), scene.point(ridge.points[1])};
@@ -168,7 +170,6 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
   const Point& e0 = scene.point(ridge.points[0]);
   const Point& e1 = scene.point(ridge.points[1]);
   const LineThrough line{e0, e1};
-  out.degenerate = true;
 
   std::vector<int> faces(meeting.begin(), meeting.end());
   faces.insert(faces.end(), star.faces.begin(), star.faces.end());
@@ -222,6 +223,7 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
       }
       out.arcs.push_back(arc);
       out.intervals.push_back({*begin, end});
+      out.special_arcs.push_back(1);
       begin.reset();
     };
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
@@ -239,37 +241,48 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
   }
 }
 
-void find_further_contacts(const Generators& g, const Star& star, VertexView& view) {
+void find_further_contacts(const Generators& g, const Star& star, LineProbe& probe,
+                           VertexView& view) {
   const Scene& scene = g.scene();
   const Point& v = scene.point(star.point);
   const ExactPoint from = exact_point(v);
   std::vector<std::uint8_t> done(view.nodes.size(), 0);
+  const auto may_touch_more = [&](const SkeletonNode& node, const Point& e0,
+                                  const Point& e1, const Cut& cut) {
+    const Point x = e0 + cut.parameter() * (e1 - e0);
+    // Half the enclosure, and the roundings of a difference, a product and a sum.
+    const double error =
+        (0.5 * (cut.hi - cut.lo) + 4 * kUnit) * (e1 - e0).cwiseAbs().sum() +
+        4 * kUnit * (e0.cwiseAbs().sum() + x.cwiseAbs().sum());
+    return probe.may_touch_more(
+        v, x, error, {view.pool.data() + node.first_generator, node.generator_count});
+  };
+  const auto look_at = [&](std::uint32_t id, std::size_t arc, const Cut& cut) {
+    if (done[id]) return;
+    done[id] = 1;
+    SkeletonNode& node = view.nodes[id];
+    const Edge& edge = scene.edges()[view.arcs[arc].edge];
+    const Point& e0 = scene.point(edge.points[0]);
+    const Point& e1 = scene.point(edge.points[1]);
+    if (!view.special[id] && (!g.aligned() || !may_touch_more(node, e0, e1, cut))) return;
+    const ExactPoint x =
+        along(exact_point(e0), exact_point(e1), exact_parameter(scene, {e0, e1}, cut));
+    const LineScan scan(scene, faces_near_line(g, v, rounded(x)), from, x);
+    const NodeContacts all = contacts_along(g, scan, {from, x}, node.end);
+    if (all.generators.empty()) return;
+    if (all.kind == node.kind && all.kind != NodeKind::Degenerate) return;
+    node.kind = all.kind;
+    node.self = all.self;
+    node.segment = all.segment;
+    node.first_generator = static_cast<std::uint32_t>(view.pool.size());
+    node.generator_count = static_cast<std::uint32_t>(all.generators.size());
+    view.pool.insert(view.pool.end(), all.generators.begin(), all.generators.end());
+  };
   for (std::size_t i = 0; i < view.arcs.size(); ++i) {
-    const Edge& edge = scene.edges()[view.arcs[i].edge];
-    const ExactPoint x0 = exact_point(scene.point(edge.points[0]));
-    const ExactPoint x1 = exact_point(scene.point(edge.points[1]));
-    const LineThrough line{scene.point(edge.points[0]), scene.point(edge.points[1])};
-    for (int k = 0; k < 2; ++k) {
-      const std::uint32_t id = view.arcs[i].nodes[k];
-      if (done[id]) continue;
-      done[id] = 1;
-      SkeletonNode& node = view.nodes[id];
-      const Cut& cut = k == 0 ? view.intervals[i].from : view.intervals[i].to;
-      const ExactPoint x = cut.kind == CutKind::Start ? x0
-                           : cut.kind == CutKind::End
-                               ? x1
-                               : along(x0, x1, exact_parameter(scene, line, cut));
-      const LineScan scan(scene, faces_near_line(g, v, rounded(x)), from, x);
-      const NodeContacts all = contacts_along(g, scan, node.end);
-      if (all.generators.empty()) continue;
-      if (all.kind == node.kind && all.kind != NodeKind::Degenerate) continue;
-      node.kind = all.kind;
-      node.self = all.self;
-      node.first_generator = static_cast<std::uint32_t>(view.pool.size());
-      node.generator_count = static_cast<std::uint32_t>(all.generators.size());
-      view.pool.insert(view.pool.end(), all.generators.begin(), all.generators.end());
-    }
+    look_at(view.arcs[i].nodes[0], i, view.intervals[i].from);
+    look_at(view.arcs[i].nodes[1], i, view.intervals[i].to);
   }
+  for (const auto& [node, arc, cut] : view.line_ups) look_at(node, arc, cut);
 }
 
 }  // namespace sightline::internal

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "skeleton/edge_pair_internal.h"
+#include "skeleton/irrational_line_internal.h"
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/occluder_shadow_internal.h"
 
@@ -43,6 +44,7 @@ EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
       forms_(carriers.all.size()),
       point_stamp_(scene_.points().size(), 0),
       beside_last_(scene_.points().size()),
+      probe_(generators),
       node_stamps_(carriers.all.size(), 0) {}
 
 void EdgePairs::prepare(int i) {
@@ -802,8 +804,9 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
   const auto& o = outer.points;
   node.segment = {o.at(o.p[0]) + s * (o.at(o.p[1]) - o.at(o.p[0])),
                   o.at(o.q[0]) + t * (o.at(o.q[1]) - o.at(o.q[0]))};
-  if (may_touch_more(outer, curve, middle, cut)) {
-    list_contacts(curve, cut, node);
+  if (may_touch_more(outer, curve, middle, cut) ||
+      (g_.aligned() && may_touch_beyond(outer, curve, cut, node))) {
+    list_contacts(outer, curve, cut, node);
     if (!node.all.empty()) return node;
   }
   // One direction for a line, whichever way it was found; VEE begins with its vertex.
@@ -842,6 +845,7 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
            curve.compare(other, cut) == Sign::Zero;
   };
   for (const Constraint& c : constraints_) {
+    if (c.values.constant() && c.values.sign0 == Sign::Zero) return true;
     if (cut.kind == CurveCutKind::Start ? c.zero0
         : cut.kind == CurveCutKind::End ? c.zero1
                                         : !c.values.constant() && coincides(c.cut)) {
@@ -857,9 +861,19 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
     const Star& star = g_.stars()[g_.star_of_point(corner)];
     if (!star.convex || star.touched || star.in_plane_only) return true;
   }
-  if ((cut.kind == CurveCutKind::OnFirst || cut.kind == CurveCutKind::OnPlane) &&
-      carriers_.touched_facets[cut.feature] != 0) {
-    return true;
+  if (cut.kind == CurveCutKind::OnFirst || cut.kind == CurveCutKind::OnPlane) {
+    if (carriers_.touched_facets[cut.feature] != 0) return true;
+    // A corner w of the face is on the line iff it is in the plane of P(s) and the last
+    // edge, or in that of Q(t) and the first; one of the two is not the face's.
+    for (const int face : scene_.facets()[cut.feature].faces) {
+      for (const int w : scene_.face_points(face)) {
+        const BoundedLinear& l = beside_last(outer, w);
+        if (l.constant() && l.sign0 != Sign::Zero) continue;
+        CurveCut at{CurveCutKind::Middle, false, w, {}, 0, 1};
+        if (!l.constant()) enclose_root(l, at);
+        if (l.constant() || coincides(at)) return true;
+      }
+    }
   }
   const Ridge& r = g_.ridges()[middle];
   ++node_stamp_;
@@ -876,22 +890,47 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
   return false;
 }
 
-void EdgePairs::list_contacts(const EeeCurve& curve, const CurveCut& cut,
-                              FoundNode& node) const {
-  const auto points = curve.points_at(cut);
-  if (!points) return;
-  const auto& [a, b] = *points;
-  const LineScan scan(scene_, faces_near_line(g_, rounded(a), rounded(b)), a, b);
-  const bool end = contacts_between(g_, scan).end;
-  const NodeContacts all = contacts_along(g_, scan, end);
+// The same beyond the outer edges.
+bool EdgePairs::may_touch_beyond(const Outer& outer, const EeeCurve& curve,
+                                 const CurveCut& cut, const FoundNode& node) {
+  const auto& o = outer.points;
+  const auto t = curve.enclose_last(cut);
+  const auto slack = [](double low, double high, const Point& a, const Point& b) {
+    return (0.5 * (high - low) + 4 * kUnit) * (b - a).cwiseAbs().sum() +
+           8 * kUnit * (a.cwiseAbs().sum() + b.cwiseAbs().sum());
+  };
+  const Point& p0 = o.at(o.p[0]);
+  const Point& p1 = o.at(o.p[1]);
+  const Point& q0 = o.at(o.q[0]);
+  const Point& q1 = o.at(o.q[1]);
+  const double error =
+      std::max(slack(cut.lo, cut.hi, p0, p1), slack(t[0], t[1], q0, q1));
+  return probe_.may_touch_more(p0 + cut.parameter() * (p1 - p0),
+                               q0 + 0.5 * (t[0] + t[1]) * (q1 - q0), error,
+                               {node.generators.data(), node.count});
+}
+
+void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
+                              const CurveCut& cut, FoundNode& node) const {
+  NodeContacts all;
+  if (const auto points = curve.points_at(cut)) {
+    const auto& [a, b] = *points;
+    const LineScan scan(scene_, faces_near_line(g_, rounded(a), rounded(b)), a, b);
+    const bool end = contacts_between(g_, scan).end;
+    all = contacts_along(g_, scan, *points, end);
+  } else if (const auto line = curve.line_at(cut)) {
+    const auto edge = [&](int ridge) { return g_.ridges()[ridge].edge; };
+    all = contacts_along(g_, *line, {edge(outer.first), edge(outer.last)});
+  }
+  if (all.generators.empty()) return;
   if (all.kind == node.kind && !all.end)
     return;  // nothing new; no kind found is Degenerate
   node.kind = all.kind;
   node.self = all.self;
   node.end = all.end;
-  node.rising = false;
+  node.rising = all.second;
   node.all = all.generators;
-  if (all.turned) std::swap(node.segment[0], node.segment[1]);
+  node.segment = all.segment;
 }
 
 }  // namespace sightline::internal

@@ -12,6 +12,7 @@
 #include "skeleton/carriers_internal.h"
 #include "skeleton/eee_curve_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/line_probe_internal.h"
 #include "skeleton/pair_cells_internal.h"
 #include "skeleton/part_internal.h"
 #include "skeleton/shaft_internal.h"
@@ -23,7 +24,7 @@ namespace sightline::internal {
 struct FoundNode {
   NodeKind kind = NodeKind::EEEE;
   bool self = false, end = false;
-  /// EEEE: which of the two lines.
+  /// EEEE and Degenerate: which of the two lines.
   bool rising = false;
   std::uint8_t count = 0;
   std::array<Generator, 4> generators{};
@@ -93,7 +94,10 @@ class EdgePairs {
                                   const CurveCut& cut);
   [[nodiscard]] bool may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
                                     const CurveCut& cut);
-  void list_contacts(const EeeCurve& curve, const CurveCut& cut, FoundNode& node) const;
+  void list_contacts(const Outer& outer, const EeeCurve& curve, const CurveCut& cut,
+                     FoundNode& node) const;
+  [[nodiscard]] bool may_touch_beyond(const Outer& outer, const EeeCurve& curve,
+                                      const CurveCut& cut, const FoundNode& node);
   [[nodiscard]] bool skips(const Outer& outer, const Ridge& middle, int face) const;
 
   [[nodiscard]] PlaneValues values(const PlaneSide& plane, const Point& p0,
@@ -149,6 +153,7 @@ class EdgePairs {
   std::vector<CurveInterval> closed_, parts_, next_;
 
   // The node at hand.
+  LineProbe probe_;
   std::uint32_t node_stamp_ = 0;
   std::vector<std::uint32_t> node_stamps_;
 };

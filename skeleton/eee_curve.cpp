@@ -253,6 +253,17 @@ std::optional<std::array<ExactPoint, 2>> EeeCurve::points_at(const Rational& s) 
                                    point(pair_.at(pair_.q[0]), pair_.at(pair_.q[1]), t)};
 }
 
+// With x = (x0 : x1) on the first edge, y = (F1(x) : -F0(x)) on the last.
+std::optional<ExactLine> EeeCurve::line_at(const CurveCut& cut) const {
+  const Root r = exact(cut);
+  const std::array<Surd, 2> x{Surd{r.c - r.a, -r.b}, Surd{r.a, r.b}};
+  const auto& f = exact_form().f;
+  const std::array<Surd, 2> y{x[0] * f[0][1] + x[1] * f[1][1],
+                              -(x[0] * f[0][0] + x[1] * f[1][0])};
+  return joining({pair_.at(pair_.p[0]), pair_.at(pair_.p[1])}, x,
+                 {pair_.at(pair_.q[0]), pair_.at(pair_.q[1])}, y, r.d);
+}
+
 std::optional<Rational> EeeCurve::between(const CurveCut& a, const CurveCut& b) const {
   if (a.hi < b.lo) {
     const double middle = a.hi + 0.5 * (b.lo - a.hi);
@@ -268,6 +279,24 @@ double EeeCurve::rounded(const CurveCut& cut) const {
   if (cut.hi - cut.lo <= kRangeError || in_double()) return cut.parameter();
   const Root r = exact(cut);
   return quotient({r.a, r.b}, {r.c, 0}, r.d);
+}
+
+// t = |F0| / (|F0| + |F1|) as in enclose_root(), F0 and F1 being linear in s.
+std::array<double, 2> EeeCurve::enclose_last(const CurveCut& cut) const {
+  constexpr double slack = 16 * kU;
+  double low[2];
+  double high[2];
+  for (int b = 0; b < 2; ++b) {
+    const double error = form_.error + 8 * kU * form_.largest;
+    const double at_lo = form_.f[0][b] * (1 - cut.lo) + form_.f[1][b] * cut.lo;
+    const double at_hi = form_.f[0][b] * (1 - cut.hi) + form_.f[1][b] * cut.hi;
+    const double x = std::abs(at_lo);
+    const double y = std::abs(at_hi);
+    low[b] = (at_lo > 0) == (at_hi > 0) ? std::max(0.0, std::min(x, y) - error) : 0;
+    high[b] = std::max(x, y) + error;
+  }
+  return {low[0] > 0 ? low[0] / (low[0] + high[1]) * (1 - slack) : 0,
+          low[1] > 0 ? std::min(1.0, high[0] / (high[0] + low[1]) * (1 + slack)) : 1};
 }
 
 double EeeCurve::last_parameter(double s) const {

@@ -149,6 +149,9 @@ class EeeCurve {
   [[nodiscard]] std::optional<std::array<ExactPoint, 2>> points_at(
       const Rational& s) const;
 
+  /// The line at a crossing, wherever it lies.
+  [[nodiscard]] std::optional<ExactLine> line_at(const CurveCut& cut) const;
+
   /// A rational parameter strictly between two cuts; nullopt where they are irrational
   /// and closer than doubles tell apart.
   [[nodiscard]] std::optional<Rational> between(const CurveCut& a,
@@ -156,6 +159,9 @@ class EeeCurve {
 
   /// The cut's s, off by at most kRangeError (at precision Double: as computed).
   [[nodiscard]] double rounded(const CurveCut& cut) const;
+
+  /// An enclosure of t at a cut, within [0, 1].
+  [[nodiscard]] std::array<double, 2> enclose_last(const CurveCut& cut) const;
 
   /// t at s, rounded.
   [[nodiscard]] double last_parameter(double s) const;

@@ -48,7 +48,7 @@ class LineJoiner {
       const SkeletonNode& node = out_.nodes[i];
       if (node.kind == NodeKind::Degenerate) {
         const auto generators = out_.generators(node);
-        degenerate_.try_emplace({generators.begin(), generators.end()}, i);
+        degenerate_.try_emplace({{generators.begin(), generators.end()}, node.second}, i);
       }
       if (node.kind != NodeKind::VEE && node.kind != NodeKind::EVE) continue;
       known_.try_emplace(key_of(node.kind, false, out_.generators(node)), i);
@@ -81,8 +81,8 @@ class LineJoiner {
   }
 
   std::uint32_t add_degenerate(const FoundNode& found) {
-    const auto [at, fresh] =
-        degenerate_.try_emplace(found.all, static_cast<std::uint32_t>(out_.nodes.size()));
+    const auto [at, fresh] = degenerate_.try_emplace(
+        {found.all, found.rising}, static_cast<std::uint32_t>(out_.nodes.size()));
     if (fresh) append(found, found.all);
     out_.nodes[at->second].end |= found.end;
     return at->second;
@@ -104,7 +104,8 @@ class LineJoiner {
 
   Skeleton& out_;
   std::unordered_map<LineKey, std::uint32_t, LineHash> known_, local_;
-  std::map<std::vector<Generator>, std::uint32_t> degenerate_;
+  // By all generators, and which of two lines.
+  std::map<std::pair<std::vector<Generator>, bool>, std::uint32_t> degenerate_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <optional>
 
+#include "linespace/transversals_internal.h"
 #include "skeleton/generators_internal.h"
 
 namespace sightline::internal {
@@ -41,6 +42,11 @@ bool same_direction(const Point& origin, const Point& p, const Point& q) {
       return (p[i] > origin[i]) == (q[i] > origin[i]) && q[i] != origin[i];
   }
   return false;
+}
+
+bool parallel(const RingVector& a, const RingVector& b) {
+  return is_zero(a[1] * b[2] - a[2] * b[1]) && is_zero(a[2] * b[0] - a[0] * b[2]) &&
+         is_zero(a[0] * b[1] - a[1] * b[0]);
 }
 
 // How a face of another object, or of the same one elsewhere, meets the open edge.
@@ -223,6 +229,7 @@ Generators::Generators(const Scene& scene, int /*threads*/)
   find_ridges();
   find_stars();
   find_inside();
+  find_aligned();
 }
 
 void Generators::find_convex_solids() {
@@ -497,6 +504,50 @@ void Generators::find_stars() {
     star.convex = convex;
     // Flat all around within its own object: no generator of transversal lines.
     stars_.push_back(std::move(star));
+  }
+}
+
+// Ridges in order of one coordinate of their directions, which parallel ones share.
+void Generators::find_aligned() {
+  const Scene& s = *scene_;
+  struct Direction {
+    std::array<double, 3> unit;  // up to signs
+    int ridge;
+  };
+  std::vector<Direction> all;
+  for (std::size_t r = 0; r < ridges_.size(); ++r) {
+    const auto& p = ridges_[r].points;
+    const Point d = s.point(p[1]) - s.point(p[0]);
+    const double size = d.cwiseAbs().maxCoeff();
+    const Point u = (d / size).normalized().cwiseAbs();
+    all.push_back({{u[0], u[1], u[2]}, static_cast<int>(r)});
+  }
+  std::sort(all.begin(), all.end(),
+            [](const Direction& a, const Direction& b) { return a.unit < b.unit; });
+  // A component of magnitude at most 1 after a difference, a quotient and a norm.
+  constexpr double kWidth = 32 * kUnit;
+  const auto solid_in_common = [&](const Ridge& a, const Ridge& b) {
+    return std::any_of(a.objects.begin(), a.objects.end(), [&](std::int32_t o) {
+      return convex_solid(o) &&
+             std::find(b.objects.begin(), b.objects.end(), o) != b.objects.end();
+    });
+  };
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = i + 1; j < all.size(); ++j) {
+      if (all[j].unit[0] - all[i].unit[0] > kWidth) break;
+      if (std::abs(all[j].unit[1] - all[i].unit[1]) > kWidth ||
+          std::abs(all[j].unit[2] - all[i].unit[2]) > kWidth) {
+        continue;
+      }
+      const Ridge& a = ridges_[all[i].ridge];
+      const Ridge& b = ridges_[all[j].ridge];
+      const auto direction = [&](const Ridge& r) {
+        return ring_difference(s.point(r.points[1]), s.point(r.points[0]));
+      };
+      if (solid_in_common(a, b) || !parallel(direction(a), direction(b))) continue;
+      aligned_ = true;
+      return;
+    }
   }
 }
 

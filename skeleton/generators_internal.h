@@ -85,6 +85,10 @@ class Generators {
     return outlines_[facet];
   }
 
+  /// Two ridges of different solids (of one that is not convex) are parallel: lines may
+  /// touch more than what holds them, far beyond it, and each is asked.
+  [[nodiscard]] bool aligned() const { return aligned_; }
+
   [[nodiscard]] const Bvh& face_tree() const { return face_tree_; }
   /// Over ridges(); leaves hold ridge numbers.
   [[nodiscard]] const Bvh& ridge_tree() const { return ridge_tree_; }
@@ -97,6 +101,7 @@ class Generators {
   void find_ridges();
   void find_stars();
   void find_inside();
+  void find_aligned();
 
   const Scene* scene_;
   std::vector<Box> face_boxes_;
@@ -109,6 +114,7 @@ class Generators {
   std::vector<std::int32_t> star_of_point_;
   std::vector<std::uint8_t> inside_;
   int inside_count_ = 0;
+  bool aligned_ = false;
   std::vector<std::uint8_t> convex_;
   std::vector<std::vector<std::array<std::int32_t, 2>>> outlines_;
   std::vector<std::int32_t> object_starts_, object_ids_;

@@ -72,6 +72,27 @@ bool meets_segment(const LineScan& scan, int contact) {
   return scan.to(contact) >= 0 && scan.from(contact) <= 1;
 }
 
+// The segment comes into a part of the contact, if it comes from where it begins (step
+// 1) or ends (-1).
+bool is_entered(const LineScan& scan, int contact, int step) {
+  const std::vector<Rational> at = scan.instants(contact);
+  const std::size_t n = at.size();
+  if (n < 2) return false;
+  return step > 0 ? !scan.blocked_between(contact, at[0] - 1, at[1])
+                  : !scan.blocked_between(contact, at[n - 2], at[n - 1] + 1);
+}
+
+// The last contact that the maximal free segment meets, from one that it meets on.
+int last_contact(const LineScan& scan, int contact, int step) {
+  while (!scan.blocked(contact)) {
+    const int next = contact + step;
+    if (next < 0 || next >= scan.size()) break;
+    if (scan.blocked(next) && !is_entered(scan, next, step)) break;
+    contact = next;
+  }
+  return contact;
+}
+
 // The kind that exactly these contacts make, in the order of the line or reversed.
 std::optional<NodeKind> kind_of(std::vector<std::vector<Generator>> groups) {
   std::erase_if(groups, [](const auto& x) { return x.empty(); });
@@ -149,6 +170,18 @@ NodeContacts node_of(const Generators& g,
 
 }  // namespace
 
+NodeContacts node_along(const Generators& g,
+                        const std::vector<std::vector<Generator>>& groups) {
+  NodeContacts node = node_of(g, groups);
+  std::vector<Generator> reversed;
+  for (auto group = groups.rbegin(); group != groups.rend(); ++group) {
+    reversed.insert(reversed.end(), group->begin(), group->end());
+  }
+  node.turned = reversed < node.generators;
+  if (node.turned) node.generators = reversed;
+  return node;
+}
+
 ExactPoint along(const ExactPoint& a, const ExactPoint& b, const Rational& s) {
   return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
 }
@@ -213,7 +246,8 @@ NodeContacts contacts_between(const Generators& g, const LineScan& scan) {
   return node;
 }
 
-NodeContacts contacts_along(const Generators& g, const LineScan& scan, bool end) {
+NodeContacts contacts_along(const Generators& g, const LineScan& scan,
+                            const std::array<ExactPoint, 2>& line, bool end) {
   int first = -1;
   int last = -1;
   for (int c = 0; c < scan.size(); ++c) {
@@ -221,21 +255,14 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan, bool end)
     if (scan.from(c) <= 1 && scan.to(c) >= 1) last = c;
   }
   if (first < 0 || last < 0) return {};
-  if (!end || !blocks_segment(scan, first)) {
-    while (first > 0 && !scan.blocked(first - 1)) --first;
-  }
-  if (!end || !blocks_segment(scan, last)) {
-    while (last + 1 < scan.size() && !scan.blocked(last + 1)) ++last;
-  }
+  first = last_contact(scan, first, -1);
+  last = last_contact(scan, last, 1);
   std::vector<std::vector<Generator>> groups;
   for (int c = first; c <= last; ++c) groups.push_back(generators_of(g, scan, c));
-  NodeContacts node = node_of(g, groups);
-  std::vector<Generator> reversed;
-  for (auto group = groups.rbegin(); group != groups.rend(); ++group) {
-    reversed.insert(reversed.end(), group->begin(), group->end());
-  }
-  node.turned = reversed < node.generators;
-  if (node.turned) node.generators = reversed;
+  NodeContacts node = node_along(g, groups);
+  node.segment = {rounded(along(line[0], line[1], scan.from(first))),
+                  rounded(along(line[0], line[1], scan.to(last)))};
+  if (node.turned) std::swap(node.segment[0], node.segment[1]);
   // A line along a face that ends where the face does.
   const bool stops = scan.blocked(first) || scan.blocked(last);
   node.end = end || (node.kind == NodeKind::FEE && stops);

@@ -31,16 +31,27 @@ struct NodeContacts {
   bool end = false;                   ///< some contact blocks the segment
   std::vector<Generator> generators;  ///< in order along the line
   bool turned = false;                ///< listed against the line's direction
+  /// Of an irrational line: which of the two through the same edges.
+  bool second = false;
+  /// The outermost contacts, rounded, in the order of `generators`; of contacts_along().
+  std::array<Point, 2> segment{Point::Zero(), Point::Zero()};
 };
+
+/// The node that these contacts make, given in order along the line and listed from the
+/// end with the smaller generators.
+[[nodiscard]] NodeContacts node_along(
+    const Generators& generators, const std::vector<std::vector<Generator>>& contacts);
 
 /// Of the contacts that meet the closed segment [0, 1] of the line.
 [[nodiscard]] NodeContacts contacts_between(const Generators& generators,
                                             const LineScan& scan);
 
-/// Of those along the whole maximal free segment around [0, 1]; listed from the end with
-/// the smaller generators.  `end` says that the line may end at 0 or 1, and goes on from
-/// there only where it does not.
+/// Of those along the whole maximal free segment around [0, 1] of the scan's line, given
+/// by its points at 0 and 1; listed from the end with the smaller generators.  `end` says
+/// that the line may end at 0 or 1, and goes on from there only where it does not.
 [[nodiscard]] NodeContacts contacts_along(const Generators& generators,
-                                          const LineScan& scan, bool end);
+                                          const LineScan& scan,
+                                          const std::array<ExactPoint, 2>& line,
+                                          bool end);
 
 }  // namespace sightline::internal

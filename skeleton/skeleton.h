@@ -58,7 +58,8 @@ struct SkeletonNode {
   /// The last contact is a corner at which the line enters its solid: the line ends there
   /// rather than grazes (counted under "end").
   bool end = false;
-  /// EEEE: which of the two lines through the four edges.
+  /// EEEE: which of the two lines through the four edges; Degenerate: which of two
+  /// irrational lines through the same edges.
   bool second = false;
   /// Generators in order along the line: `count` of them from Skeleton::generators().
   std::uint32_t first_generator = 0;

@@ -46,6 +46,7 @@ std::uint32_t VertexView::add_node(NodeKind kind, bool self, bool end,
   node.segment = segment;
   pool.insert(pool.end(), generators.begin(), generators.end());
   nodes.push_back(node);
+  special.push_back(kind == NodeKind::Degenerate);
   return static_cast<std::uint32_t>(nodes.size() - 1);
 }
 
@@ -62,38 +63,47 @@ void VertexView::sort_arcs() {
   });
   std::vector<SkeletonArc> sorted_arcs;
   std::vector<CutInterval> sorted_intervals;
+  std::vector<std::uint8_t> sorted_special;
   for (const auto i : order) {
     sorted_arcs.push_back(arcs[i]);
+    sorted_special.push_back(special_arcs[i]);
     sorted_intervals.push_back(intervals[i]);
   }
   arcs = std::move(sorted_arcs);
   intervals = std::move(sorted_intervals);
+  special_arcs = std::move(sorted_special);
 }
 
 void VertexView::keep_arcs(const std::vector<std::uint8_t>& flags) {
   std::vector<SkeletonArc> kept;
   std::vector<CutInterval> kept_intervals;
+  std::vector<std::uint8_t> kept_special;
   for (std::size_t i = 0; i < arcs.size(); ++i) {
     if (flags[i] == 0) continue;
     kept.push_back(arcs[i]);
     kept_intervals.push_back(intervals[i]);
+    kept_special.push_back(special_arcs[i]);
   }
   if (kept.size() == arcs.size()) return;
   arcs = std::move(kept);
   intervals = std::move(kept_intervals);
+  special_arcs = std::move(kept_special);
   constexpr auto kUnused = static_cast<std::uint32_t>(-1);
   std::vector<std::uint32_t> renamed(nodes.size(), kUnused);
   std::vector<SkeletonNode> used;
+  std::vector<std::uint8_t> used_special;
   for (SkeletonArc& arc : arcs) {
     for (std::uint32_t& n : arc.nodes) {
       if (renamed[n] == kUnused) {
         renamed[n] = static_cast<std::uint32_t>(used.size());
         used.push_back(nodes[n]);
+        used_special.push_back(special[n]);
       }
       n = renamed[n];
     }
   }
   nodes = std::move(used);
+  special = std::move(used_special);
 }
 
 // Angular cover test: seen along the line every sector is a convex cone of the plane; the
@@ -146,7 +156,8 @@ VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
       part_(part),
       lines_(lines),
       feature_size_(feature_size),
-      facet_stamp_(scene_.facets().size(), 0) {}
+      facet_stamp_(scene_.facets().size(), 0),
+      probe_(generators) {}
 
 struct VertexViewer::Pair {
   int ridge;
@@ -251,7 +262,10 @@ VertexView VertexViewer::view(int star) {
   if (feature_size_ > 0) drop_short_arcs(out);
   if (part_.by_lines) drop_arcs_off_source(out);
   add_line_ups(out);
-  if (out.degenerate) find_further_contacts(g_, *star_, out);
+  find_further_contacts(g_, *star_, probe_, out);
+  out.line_ups = {};
+  out.special = {};
+  out.special_arcs = {};
   out.intervals = {};
   out.positions = {};
   return out;
@@ -439,6 +453,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     }
     out.arcs.push_back(arc);
     out.intervals.push_back(i);
+    out.special_arcs.push_back(mild);
   }
 }
 
@@ -901,9 +916,11 @@ void VertexViewer::add_line_ups(VertexView& out) {
                                       {GeneratorKind::Vertex, point_},
                                       {GeneratorKind::Edge, b.edge}};
       const bool self = a.self || b.self || e.object == f.object;
-      out.add_node(
+      const std::uint32_t node = out.add_node(
           NodeKind::EVE, self, false, generators,
           {e0 + on_e.parameter() * (e1 - e0), f0 + on_f.parameter() * (f1 - f0)});
+      out.special[node] = out.special_arcs[i] != 0 || out.special_arcs[j] != 0;
+      out.line_ups.push_back({node, static_cast<std::uint32_t>(i), on_e});
     }
   }
 }

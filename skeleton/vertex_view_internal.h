@@ -11,6 +11,7 @@
 
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/line_probe_internal.h"
 #include "skeleton/part_internal.h"
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
@@ -23,11 +24,19 @@ struct VertexView {
   std::vector<SkeletonArc> arcs;
   std::vector<SkeletonNode> nodes;
   std::vector<Generator> pool;
-  std::vector<CutInterval> intervals;       ///< exact ranges of `arcs`, while it is built
-  std::deque<Rational> positions;           ///< of cuts that keep a pointer
+  std::vector<CutInterval> intervals;  ///< exact ranges of `arcs`, while it is built
+  std::deque<Rational> positions;      ///< of cuts that keep a pointer
   std::vector<Simplified::Arc> short_arcs;  ///< left out
-  /// Some line here has more contacts than it needs, or one is in the plane of a face.
-  bool degenerate = false;
+  /// Of the nodes: found among zero signs, so that its contacts are listed.
+  std::vector<std::uint8_t> special;
+  /// Of the arcs, while it is built: found among zero signs.
+  std::vector<std::uint8_t> special_arcs;
+  /// EVE nodes, by a position on the edge of an arc.
+  struct LineUp {
+    std::uint32_t node, arc;
+    Cut cut;
+  };
+  std::vector<LineUp> line_ups;
 
   std::uint32_t add_node(NodeKind kind, bool self, bool end,
                          std::span<const Generator> generators,
@@ -103,6 +112,7 @@ class VertexViewer {
   std::unordered_map<std::int64_t, int> shadow_index_;  // by solid, facet or face
   std::vector<std::int32_t> recent_;  // positions in shadows_, best first
   std::vector<BoundedPlane> star_planes_;
+  LineProbe probe_;
 };
 
 }  // namespace sightline::internal
