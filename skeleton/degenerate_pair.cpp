@@ -257,6 +257,22 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     return probe.may_touch_more(
         v, x, error, {view.pool.data() + node.first_generator, node.generator_count});
   };
+  // FvE: the line leaves its face at a corner.
+  const auto leaves_by_corner = [&](const SkeletonNode& node, const Point& e0,
+                                    const Point& e1) {
+    if (node.kind != NodeKind::FvE) return false;
+    const PlaneSide plane({v, e0, e1});
+    for (std::uint32_t k = 0; k < node.generator_count; ++k) {
+      const Generator& x = view.pool[node.first_generator + k];
+      if (x.kind != GeneratorKind::Face) continue;
+      for (const int f : scene.facets()[x.id].faces) {
+        for (const int w : scene.face_points(f)) {
+          if (w != star.point && plane(scene.point(w)) == Sign::Zero) return true;
+        }
+      }
+    }
+    return false;
+  };
   const auto look_at = [&](std::uint32_t id, std::size_t arc, const Cut& cut) {
     if (done[id]) return;
     done[id] = 1;
@@ -264,7 +280,10 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     const Edge& edge = scene.edges()[view.arcs[arc].edge];
     const Point& e0 = scene.point(edge.points[0]);
     const Point& e1 = scene.point(edge.points[1]);
-    if (!view.special[id] && (!g.aligned() || !may_touch_more(node, e0, e1, cut))) return;
+    if (!view.special[id] && !leaves_by_corner(node, e0, e1) &&
+        (!g.aligned() || !may_touch_more(node, e0, e1, cut))) {
+      return;
+    }
     const ExactPoint x =
         along(exact_point(e0), exact_point(e1), exact_parameter(scene, {e0, e1}, cut));
     const LineScan scan(scene, faces_near_line(g, v, rounded(x)), from, x);

@@ -66,6 +66,11 @@ class Joiner {
     node.first_generator = static_cast<std::uint32_t>(out_.generator_pool.size());
     out_.generator_pool.insert(out_.generator_pool.end(), generators.begin(),
                                generators.end());
+    if (node.kind == NodeKind::VV && generators[1] < generators[0]) {
+      // One direction, whichever end it was found from.
+      std::iter_swap(out_.generator_pool.end() - 2, out_.generator_pool.end() - 1);
+      std::swap(node.segment[0], node.segment[1]);
+    }
     out_.nodes.push_back(node);
     return next;
   }

@@ -55,13 +55,15 @@ struct SkeletonNode {
   NodeKind kind;
   /// Two contacts are on one object (counted under "..._self").
   bool self = false;
-  /// The last contact is a corner at which the line enters its solid: the line ends there
-  /// rather than grazes (counted under "end").
+  /// The first or the last contact is a corner at which the line enters its solid: the
+  /// line ends there rather than grazes (counted under "end").
   bool end = false;
   /// EEEE: which of the two lines through the four edges; Degenerate: which of two
   /// irrational lines through the same edges.
   bool second = false;
-  /// Generators in order along the line: `count` of them from Skeleton::generators().
+  /// Generators in order along the line: `count` of them from Skeleton::generators().  VV
+  /// begins with the smaller vertex, VEE and FvE with their vertex, others from the end
+  /// with the smaller generators: however the line was found.
   std::uint32_t first_generator = 0;
   std::uint32_t generator_count = 0;
   /// The outermost contacts, rounded to double.

@@ -1,0 +1,180 @@
+// Scenes where everything lines up: a line is one node whatever found it, every node of
+// general position ends as many arcs as there, and sets of lines that meet four edges all
+// along are defined (docs/degenerate_scenes.md).
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "linespace/scene.h"
+#include "skeleton/skeleton.h"
+#include "tests/support/generators.h"
+#include "tests/support/library_skeleton.h"
+
+namespace sightline {
+namespace {
+
+std::vector<int> ends_at(const Skeleton& skeleton) {
+  std::vector<int> ends(skeleton.nodes.size());
+  for (const EeeArc& arc : skeleton.eee_arcs) {
+    for (const std::uint32_t node : arc.nodes) ++ends[node];
+  }
+  return ends;
+}
+
+// Before lines were named by all their contacts, 333 EEEE nodes of the grid of 300 ended
+// one arc, 234 EVE nodes none.
+TEST(DegenerateScenes, NodesOfGeneralPositionInGridsEndTwoArcs) {
+  std::map<NodeKind, int> counts;
+  for (const auto& [seed, polygons] : {std::pair(1, 100), {2, 150}, {1, 240}}) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed << ", " << polygons);
+    const Scene scene(testing::grid_city(seed, polygons));
+    const Skeleton skeleton = build_skeleton(scene);
+    const std::vector<int> ends = ends_at(skeleton);
+    for (std::size_t i = 0; i < ends.size(); ++i) {
+      const SkeletonNode& node = skeleton.nodes[i];
+      if (node.kind != NodeKind::EEEE && node.kind != NodeKind::EVE &&
+          node.kind != NodeKind::VEE && node.kind != NodeKind::FEE) {
+        continue;
+      }
+      ++counts[node.kind];
+      EXPECT_EQ(ends[i], node.end ? 1 : 2) << testing::node_name(node.kind);
+    }
+  }
+  EXPECT_GT(counts[NodeKind::EEEE], 500);
+  EXPECT_GT(counts[NodeKind::EVE], 200);
+  EXPECT_GT(counts[NodeKind::VEE], 1000);
+  EXPECT_GT(counts[NodeKind::FEE], 100);
+}
+
+// No two nodes with the same contacts, but for the two lines through the same edges and
+// for lines that end on one side.
+TEST(DegenerateScenes, NoLineIsTwoNodes) {
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    SCOPED_TRACE(::testing::Message() << "seed " << seed);
+    const Scene scene(testing::grid_city(seed, 120));
+    const Skeleton skeleton = build_skeleton(scene);
+    std::map<std::pair<std::vector<Generator>, int>, std::size_t> known;
+    int irrational = 0;
+    for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
+      const SkeletonNode& node = skeleton.nodes[i];
+      const auto g = skeleton.generators(node);
+      std::vector<Generator> key(g.begin(), g.end());
+      key = std::min(key, std::vector<Generator>(key.rbegin(), key.rend()));
+      const int which = 4 * node.end + 2 * node.second + (node.kind == NodeKind::EEEE);
+      EXPECT_TRUE(known.try_emplace({key, which}, i).second)
+          << testing::node_name(node.kind) << " of " << g.size() << " generators";
+      irrational += node.kind == NodeKind::Degenerate && node.second;
+    }
+    EXPECT_GT(known.size(), 1000u);
+    std::printf("%d of the second line through five edges or more\n", irrational);
+  }
+}
+
+/// A bar along the ruling y = c of the saddle z = xy, over |x| <= reach, above the lines
+/// of the other family x = const.
+void add_bar(PolygonSoup& soup, double c, double reach) {
+  const int n = static_cast<int>(soup.vertices.size());
+  for (const double x : {-reach, reach}) {
+    soup.vertices.push_back({x, c, c * x});
+    soup.vertices.push_back({x, c - 0.125, c * x + 8});
+    soup.vertices.push_back({x, c + 0.125, c * x + 8});
+  }
+  const int first = static_cast<int>(soup.polygons.size());
+  for (const std::vector<int>& f : std::vector<std::vector<int>>{
+           {0, 1, 2}, {3, 5, 4}, {0, 3, 4, 1}, {1, 4, 5, 2}, {2, 5, 3, 0}}) {
+    std::vector<int> face;
+    for (const int v : f) face.push_back(n + v);
+    soup.polygons.push_back(face);
+  }
+  PolygonSoup::Group group{"bar" + std::to_string(soup.groups.size()), {}};
+  for (int k = 0; k < 5; ++k) group.faces.push_back(first + k);
+  soup.groups.push_back(group);
+}
+
+// Four edges of one ruled surface: the lines of its other family meet all four.  They are
+// an arc of each triple, once each, and end together.
+TEST(DegenerateScenes, BarsOnARegulus) {
+  for (const bool reversed : {false, true}) {
+    PolygonSoup soup;
+    for (int k = 0; k < 4; ++k) {
+      const int c = reversed ? 3 - k : k;
+      add_bar(soup, c, 1 + 0.25 * c);
+    }
+    const Scene scene(soup);
+    const auto ruling = [&](int edge) {  // c of a ruling, -1 for other edges
+      const auto& p = scene.edges()[edge].points;
+      const Point& a = scene.point(p[0]);
+      const Point& b = scene.point(p[1]);
+      if (a[1] != b[1] || a[2] != a[0] * a[1] || b[2] != b[0] * b[1]) return -1;
+      return static_cast<int>(a[1]);
+    };
+    const Skeleton skeleton = build_skeleton(scene);
+    std::map<std::array<int, 3>, std::vector<double>> arcs;
+    std::map<std::uint32_t, int> ends;
+    for (const EeeArc& arc : skeleton.eee_arcs) {
+      std::array<int, 3> c{};
+      for (int k = 0; k < 3; ++k) c[k] = ruling(arc.edges[k]);
+      if (*std::min_element(c.begin(), c.end()) < 0) continue;
+      const double reach = 1 + 0.25 * c[0];
+      const auto& p = scene.edges()[arc.edges[0]].points;
+      const double x0 = scene.point(p[0])[0];
+      const double x1 = scene.point(p[1])[0];
+      EXPECT_EQ(std::abs(x0), reach);
+      if (c[0] > c[2]) std::swap(c[0], c[2]);
+      for (const double s : arc.range) arcs[c].push_back(x0 + s * (x1 - x0));
+      for (const std::uint32_t node : arc.nodes) ++ends[node];
+    }
+    // Each triple's lines reach as far as its shortest edge, past ends of others.
+    ASSERT_EQ(arcs.size(), 4u);
+    for (auto& [c, x] : arcs) {
+      SCOPED_TRACE(::testing::Message() << c[0] << c[1] << c[2]);
+      std::sort(x.begin(), x.end());
+      const double reach = 1 + 0.25 * c[0];
+      ASSERT_EQ(x.size(), 2u);
+      EXPECT_NEAR(x[0], -reach, 1e-12);
+      EXPECT_NEAR(x[1], reach, 1e-12);
+    }
+    // Three arcs end at x = 1 and at x = -1: lines through a corner of the shortest bar
+    // that meet the three others.
+    int together = 0;
+    for (const auto& [node, count] : ends) {
+      if (count != 3) continue;
+      ++together;
+      EXPECT_EQ(skeleton.nodes[node].kind, NodeKind::Degenerate);
+      EXPECT_EQ(skeleton.nodes[node].generator_count, 4u);
+    }
+    EXPECT_EQ(together, 2);
+  }
+}
+
+// Edges of which the middle one is coplanar with both others: a line that meets all three
+// lies in one plane with them or passes a common point of two, so no arc has them.
+TEST(DegenerateScenes, NoArcHasAMiddleEdgeCoplanarWithBothOthers) {
+  // A row of boxes of one height, and one shifted up and aside.
+  const Scene scene(testing::boxes_soup({{{0, 0, 0}, {4, 1, 1}},
+                                         {{0, 3, 0}, {4, 4, 1}},
+                                         {{0, 6, 0}, {4, 7, 1}},
+                                         {{1, 9, 1}, {5, 10, 2}}}));
+  const Skeleton skeleton = build_skeleton(scene);
+  const auto coplanar = [&](int e, int f) {
+    const auto& p = scene.edges()[e].points;
+    const auto& q = scene.edges()[f].points;
+    return orient3d(scene.point(p[0]), scene.point(p[1]), scene.point(q[0]),
+                    scene.point(q[1])) == Sign::Zero;
+  };
+  EXPECT_GT(skeleton.eee_arcs.size(), 20u);
+  std::set<std::pair<std::array<std::int32_t, 3>, double>> known;
+  for (const EeeArc& arc : skeleton.eee_arcs) {
+    EXPECT_FALSE(coplanar(arc.edges[0], arc.edges[1]) &&
+                 coplanar(arc.edges[1], arc.edges[2]));
+    EXPECT_TRUE(known.insert({arc.edges, arc.range[0]}).second) << "twice";
+  }
+}
+
+}  // namespace
+}  // namespace sightline
