@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 #include <string>
@@ -75,14 +77,13 @@ TEST(DegenerateScenes, NoLineIsTwoNodes) {
   }
 }
 
-/// A bar along the ruling y = c of the saddle z = xy, over |x| <= reach, above the lines
-/// of the other family x = const.
-void add_bar(PolygonSoup& soup, double c, double reach) {
+/// A bar with an edge from `from` to `to`, above it.
+void add_bar(PolygonSoup& soup, const Point& from, const Point& to) {
   const int n = static_cast<int>(soup.vertices.size());
-  for (const double x : {-reach, reach}) {
-    soup.vertices.push_back({x, c, c * x});
-    soup.vertices.push_back({x, c - 0.125, c * x + 8});
-    soup.vertices.push_back({x, c + 0.125, c * x + 8});
+  for (const Point& p : {from, to}) {
+    soup.vertices.push_back(p);
+    soup.vertices.push_back(p + Point(0, -0.125, 8));
+    soup.vertices.push_back(p + Point(0, 0.125, 8));
   }
   const int first = static_cast<int>(soup.polygons.size());
   for (const std::vector<int>& f : std::vector<std::vector<int>>{
@@ -102,8 +103,10 @@ TEST(DegenerateScenes, BarsOnARegulus) {
   for (const bool reversed : {false, true}) {
     PolygonSoup soup;
     for (int k = 0; k < 4; ++k) {
-      const int c = reversed ? 3 - k : k;
-      add_bar(soup, c, 1 + 0.25 * c);
+      const double c = reversed ? 3 - k : k;
+      // A ruling y = c of the saddle z = x y; below them those with x constant.
+      const double reach = 1 + 0.25 * c;
+      add_bar(soup, {-reach, c, -reach * c}, {reach, c, reach * c});
     }
     const Scene scene(soup);
     const auto ruling = [&](int edge) {  // c of a ruling, -1 for other edges
@@ -149,6 +152,55 @@ TEST(DegenerateScenes, BarsOnARegulus) {
       EXPECT_EQ(skeleton.nodes[node].generator_count, 4u);
     }
     EXPECT_EQ(together, 2);
+  }
+}
+
+// The lines (0, a, 2 b) + u (1, b, a) meet x = u, z = u y for u = sqrt 2 and - sqrt 2,
+// two irrational lines.  Five such edges: one node on each, whatever four found it.
+TEST(DegenerateScenes, IrrationalLinesThroughFiveEdges) {
+  for (const double low : {1.0, -2.0}) {
+    for (const bool reversed : {false, true}) {
+      std::vector<std::array<double, 2>> bars = {
+          {0, 0}, {2, 0.25}, {4, -0.25}, {6, 0.5}, {8, 0}};
+      if (reversed) std::reverse(bars.begin(), bars.end());
+      PolygonSoup soup;
+      std::set<std::array<double, 3>> starts;
+      for (const auto& [a, b] : bars) {
+        const auto at = [&](double u) { return Point(u, a + b * u, 2 * b + a * u); };
+        add_bar(soup, at(low), at(2));
+        starts.insert({at(2)[0], at(2)[1], at(2)[2]});
+      }
+      const Scene scene(soup);
+      const auto is_bar = [&](const Generator& g) {
+        if (g.kind != GeneratorKind::Edge) return false;
+        const auto& p = scene.edges()[g.id].points;
+        return std::any_of(p.begin(), p.end(), [&](int id) {
+          const Point& x = scene.point(id);
+          const Point& y = scene.point(p[0] == id ? p[1] : p[0]);
+          return starts.contains({x[0], x[1], x[2]}) && y[0] == low;
+        });
+      };
+      const Skeleton skeleton = build_skeleton(scene);
+      const std::vector<int> ends = ends_at(skeleton);
+      std::vector<std::pair<bool, int>> found;  // which, arcs
+      for (std::size_t i = 0; i < ends.size(); ++i) {
+        const SkeletonNode& node = skeleton.nodes[i];
+        const auto g = skeleton.generators(node);
+        if (g.size() < 4 || !std::all_of(g.begin(), g.end(), is_bar)) continue;
+        EXPECT_EQ(g.size(), 5u) << testing::node_name(node.kind);
+        EXPECT_EQ(node.kind, NodeKind::Degenerate);
+        found.emplace_back(node.second, ends[i]);
+        for (const Point& p : node.segment) {
+          EXPECT_NEAR(std::abs(p[0]), std::sqrt(2), 1e-12);
+        }
+        std::printf("second %d: %d arcs\n", node.second, ends[i]);
+      }
+      std::sort(found.begin(), found.end());
+      ASSERT_EQ(found.size(), low == 1 ? 1u : 2u);
+      EXPECT_TRUE(found.back().first);
+      for (const auto& [second, count] : found) EXPECT_GT(count, 2);
+      if (found.size() == 2) EXPECT_FALSE(found.front().first);
+    }
   }
 }
 
