@@ -864,12 +864,25 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
   if (cut.kind == CurveCutKind::OnFirst || cut.kind == CurveCutKind::OnPlane) {
     if (carriers_.touched_facets[cut.feature] != 0) return true;
     // A corner w of the face is on the line iff it is in the plane of P(s) and the last
-    // edge, or in that of Q(t) and the first; one of the two is not the face's.
+    // edge, or that of P(s) and the middle edge where the face is at the last one.
+    const auto& at_last = g_.ridges()[outer.last].facets;
+    const bool by_middle = cut.feature == at_last[0] || cut.feature == at_last[1];
+    const auto& m = carriers_.all[curve.middle()].points;
     for (const int face : scene_.facets()[cut.feature].faces) {
       for (const int w : scene_.face_points(face)) {
-        const BoundedLinear& l = beside_last(outer, w);
+        BoundedLinear l{};
+        if (by_middle) {
+          const PlaneSide plane(
+              {scene_.point(w), scene_.point(m[0]), scene_.point(m[1])});
+          const auto& o = outer.points;
+          const PlaneValues v = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+          l = {v.at0.value, v.at1.value, v.at0.error, v.at1.error, v.sign0, v.sign1};
+        } else {
+          l = beside_last(outer, w);
+        }
         if (l.constant() && l.sign0 != Sign::Zero) continue;
-        CurveCut at{CurveCutKind::Middle, false, w, {}, 0, 1};
+        CurveCut at{
+            by_middle ? CurveCutKind::Far : CurveCutKind::Middle, false, w, {}, 0, 1};
         if (!l.constant()) enclose_root(l, at);
         if (l.constant() || coincides(at)) return true;
       }
@@ -903,8 +916,7 @@ bool EdgePairs::may_touch_beyond(const Outer& outer, const EeeCurve& curve,
   const Point& p1 = o.at(o.p[1]);
   const Point& q0 = o.at(o.q[0]);
   const Point& q1 = o.at(o.q[1]);
-  const double error =
-      std::max(slack(cut.lo, cut.hi, p0, p1), slack(t[0], t[1], q0, q1));
+  const double error = std::max(slack(cut.lo, cut.hi, p0, p1), slack(t[0], t[1], q0, q1));
   return probe_.may_touch_more(p0 + cut.parameter() * (p1 - p0),
                                q0 + 0.5 * (t[0] + t[1]) * (q1 - q0), error,
                                {node.generators.data(), node.count});
