@@ -10,13 +10,29 @@
 namespace sightline::internal {
 namespace {
 
+// `arc_ends`: of the arc that ends there, for a line that is blocked in between.
 std::uint32_t add_node_at(const Generators& g, const Point& v, const ExactPoint& x,
-                          const LineScan& scan, VertexView& out) {
+                          const LineScan& scan, const std::array<bool, 2>& arc_ends,
+                          VertexView& out) {
   const NodeContacts c = contacts_between(g, scan);
+  const bool told = c.ends[0] || c.ends[1];
   const std::uint32_t node =
-      out.add_node(c.kind, c.self, c.end, c.generators, {v, rounded(x)});
+      out.add_node(c.kind, c.self, c.end, c.generators, {v, rounded(x)},
+                   c.end && !told ? arc_ends : c.ends);
   out.special[node] = 1;
   return node;
+}
+
+// Which ends of the line [0, 1] to a point of the ridge are end contacts; nullopt when it
+// is not free.
+std::optional<std::array<bool, 2>> open_state(const Generators& g, const Ridge& ridge,
+                                              const LineScan& scan) {
+  if (!g.polygon()) {
+    return is_free(scan) ? std::optional(std::array<bool, 2>{}) : std::nullopt;
+  }
+  const auto ends = blocked_ends(g, scan);
+  if (ends && !((*ends)[1] ? ridge.can_end() : ridge.can_graze())) return std::nullopt;
+  return ends;
 }
 
 // The point strictly inside both segments where they cross, for four points in a plane
@@ -141,7 +157,7 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
 
 std::uint32_t contact_node(const Generators& g, const Star& star, const Ridge& ridge,
                            std::span<const std::int32_t> meeting, const Cut& cut,
-                           VertexView& out) {
+                           const std::array<bool, 2>& arc_ends, VertexView& out) {
   const Scene& scene = g.scene();
   std::vector<int> faces(meeting.begin(), meeting.end());
   faces.insert(faces.end(), star.faces.begin(), star.faces.end());
@@ -159,11 +175,12 @@ std::uint32_t contact_node(const Generators& g, const Star& star, const Ridge& r
   const LineThrough line{scene.point(ridge.points[0]), scene.point(ridge.points[1])};
   const ExactPoint x = along(x0, x1, exact_parameter(scene, line, cut));
   const Point& v = scene.point(star.point);
-  return add_node_at(g, v, x, LineScan(scene, faces, exact_point(v), x), out);
+  return add_node_at(g, v, x, LineScan(scene, faces, exact_point(v), x), arc_ends, out);
 }
 
 void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& ridge,
                          const PlaneSide& plane, const CutUnion& closed,
+                         std::span<const CutInterval> ending,
                          std::span<const std::int32_t> meeting, VertexView& out) {
   const Scene& scene = g.scene();
   const Point& v = scene.point(star.point);
@@ -198,6 +215,21 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
   const bool self =
       own.size() == 1 && ridge.objects.size() == 1 && own[0] == ridge.objects[0];
 
+  // Lines that end in the plane of a face that vertex and edge are both on are left out.
+  const auto& sides = scene.edges()[ridge.edge].sides;
+  const bool share_facet =
+      g.polygon() && std::any_of(sides.begin(), sides.end(), [&](const Edge::Side& s) {
+        const int facet = scene.faces()[s.face].facet;
+        return std::binary_search(star.facets.begin(), star.facets.end(), facet);
+      });
+
+  // A corner inside another face is grazed only by lines in that face's plane.
+  const bool inside_face =
+      g.polygon() && star.in_plane_only &&
+      std::none_of(star.planes.begin(), star.planes.end(), [&](int f) {
+        return g.face_plane(f)(e0) == Sign::Zero && g.face_plane(f)(e1) == Sign::Zero;
+      });
+
   for (const CutInterval& open : closed.complement()) {
     std::vector<Cut> stops{open.from};
     for (const Cut& c : cuts) {
@@ -208,34 +240,54 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
     }
     stops.push_back(open.to);
     std::optional<Cut> begin;
+    std::array<bool, 2> ends{};
+    std::optional<std::uint32_t> shared;  // the node at `begin`, where one arc has ended
+    const auto state_at = [&](const ExactPoint& x) -> std::optional<std::array<bool, 2>> {
+      const auto state = open_state(g, ridge, LineScan(scene, faces, from, x));
+      if (state && inside_face && !(*state)[0]) return std::nullopt;
+      const bool ends_here = state && ((*state)[0] || (*state)[1]);
+      if (share_facet && ends_here) return std::nullopt;
+      return state;
+    };
     const auto end_arc = [&](const Cut& end) {
       SkeletonArc arc;
       arc.vertex = star.point;
       arc.edge = ridge.edge;
       arc.self = self;
+      arc.ends = ends;
       arc.range = {rounded_parameter(scene, line, *begin),
                    rounded_parameter(scene, line, end)};
       int k = 0;
       for (const Cut& c : {*begin, end}) {
         const ExactPoint x = point_at(c);
         const LineScan scan(scene, faces, from, x);
-        arc.nodes[k++] = add_node_at(g, v, x, scan, out);
+        arc.nodes[k] = k == 0 && shared ? *shared : add_node_at(g, v, x, scan, ends, out);
+        ++k;
       }
+      shared = arc.nodes[1];
       out.arcs.push_back(arc);
       out.intervals.push_back({*begin, end});
       out.special_arcs.push_back(1);
       begin.reset();
     };
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-      const bool free =
-          is_free(LineScan(scene, faces, from, point_between(stops[i], stops[i + 1])));
+      auto state = state_at(point_between(stops[i], stops[i + 1]));
+      const bool only_ends =
+          std::any_of(ending.begin(), ending.end(), [&](const CutInterval& e) {
+            return compare(scene, line, stops[i], e.from) != Sign::Negative &&
+                   compare(scene, line, e.to, stops[i + 1]) != Sign::Negative;
+          });
+      if (state && only_ends && !(*state)[0]) state.reset();
       if (begin && i > 0) {
         // The arc goes on through a critical line that is free itself.
-        if (!free || !is_free(LineScan(scene, faces, from, point_at(stops[i])))) {
-          end_arc(stops[i]);
-        }
+        if (state != ends || state_at(point_at(stops[i])) != ends) end_arc(stops[i]);
       }
-      if (free && !begin) begin = stops[i];
+      if (!state) shared.reset();
+      if (state && !begin) {
+        begin = stops[i];
+        if (!g.polygon()) shared.reset();
+        ends = *state;
+      }
     }
     if (begin) end_arc(stops.back());
   }
@@ -292,6 +344,7 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     if (all.kind == node.kind && all.kind != NodeKind::Degenerate) return;
     node.kind = all.kind;
     node.self = all.self;
+    if (g.polygon()) node.ends = all.ends;
     node.segment = all.segment;
     node.first_generator = static_cast<std::uint32_t>(view.pool.size());
     node.generator_count = static_cast<std::uint32_t>(all.generators.size());

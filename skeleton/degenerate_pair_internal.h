@@ -27,17 +27,19 @@ namespace sightline::internal {
                                              std::deque<Rational>& positions);
 
 /// Adds the arcs of one vertex and one ridge.  `plane` is theirs, `closed` holds parts
-/// known to be hidden or unsupported, `faces` all faces that meet the triangle between.
+/// known to be hidden or unsupported, `ending` those in which the viewpoint can only be
+/// an end contact (polygon mode), `faces` all faces that meet the triangle between.
 void add_degenerate_pair(const Generators& generators, const Star& star,
                          const Ridge& ridge, const PlaneSide& plane,
-                         const CutUnion& closed, std::span<const std::int32_t> faces,
-                         VertexView& out);
+                         const CutUnion& closed, std::span<const CutInterval> ending,
+                         std::span<const std::int32_t> faces, VertexView& out);
 
 /// The node at a cut of a ridge as its contacts make it, found among `faces` (all that
-/// meet the triangle between).
+/// meet the triangle between).  `arc_ends` are those of the arc that ends there.
 std::uint32_t contact_node(const Generators& generators, const Star& star,
                            const Ridge& ridge, std::span<const std::int32_t> faces,
-                           const Cut& cut, VertexView& out);
+                           const Cut& cut, const std::array<bool, 2>& arc_ends,
+                           VertexView& out);
 
 /// Looks at nodes of a view along their whole maximal free segments: those with more
 /// contacts than their kind has become Degenerate, with all generators listed from the

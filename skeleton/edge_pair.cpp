@@ -25,6 +25,13 @@ bool share(std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
   });
 }
 
+// From behind both planes of the wedge, from in front of both: some line touches the
+// edge.
+std::array<bool, 2> touched_on(const Ridge& r) {
+  return {r.contact(Sign::Negative, Sign::Negative) != EdgeContact::None,
+          r.contact(Sign::Positive, Sign::Positive) != EdgeContact::None};
+}
+
 }  // namespace
 
 EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
@@ -58,6 +65,7 @@ void EdgePairs::prepare(int i) {
     wedge_[k] = plane_seen_from(p0_, scene_.point(r.points[1 - k]),
                                 scene_.point(r.points[k]), scene_.point(r.thirds[k]));
   }
+  touched_on_ = touched_on(r);
   ++stamp_;
   for (const Edge::Side& side : scene_.edges()[r.edge].sides) {
     facet_stamp_[scene_.faces()[side.face].facet] = stamp_;
@@ -135,13 +143,15 @@ bool EdgePairs::hidden_edge(const Ridge& last) {
                      [&](int s) { return hides(s, q0, q1); });
 }
 
-// From no point of the box can a line graze the first edge: all are behind both planes
+// From no point of the box can a line touch the first edge: all are behind both planes
 // of its wedge or in front of both.
-bool EdgePairs::never_grazed_from(const Box& box) const {
+bool EdgePairs::never_touched_from(const Box& box) const {
   const CentredBox b = centred(box);
   const auto c = relative({b.centre[0], b.centre[1], b.centre[2]}, p0_);
-  return (wedge_[0].negative_on(c, b.half) && wedge_[1].negative_on(c, b.half)) ||
-         (wedge_[0].positive_on(c, b.half) && wedge_[1].positive_on(c, b.half));
+  return (!touched_on_[0] && wedge_[0].negative_on(c, b.half) &&
+          wedge_[1].negative_on(c, b.half)) ||
+         (!touched_on_[1] && wedge_[0].positive_on(c, b.half) &&
+          wedge_[1].positive_on(c, b.half));
 }
 
 void EdgePairs::visit(int i, const std::function<bool()>& stop,
@@ -157,7 +167,7 @@ void EdgePairs::visit(int i, const std::function<bool()>& stop,
     const std::uint32_t at = stack[--top];
     const Bvh::Node& node = tree.node(at);
     if (!selection_.may_pair(i, first_box_, at, node.box)) continue;
-    if (never_grazed_from(node.box) || hidden(node.box)) continue;
+    if (never_touched_from(node.box) || hidden(node.box)) continue;
     if (node.count == 0) {
       stack[top++] = node.first + 1;
       stack[top++] = node.first;
@@ -207,14 +217,15 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   const Point& q0 = scene_.point(s.points[0]);
   const Point& q1 = scene_.point(s.points[1]);
   // A line grazes an edge iff the other point is not on the same side of both planes.
-  const auto never_grazes = [](const std::array<PlaneValues, 2>& v) {
+  const auto never_touches = [](const Ridge& ridge, const std::array<PlaneValues, 2>& v) {
     return v[0].sign0 == v[0].sign1 && v[1].sign0 == v[1].sign1 &&
-           v[0].sign0 == v[1].sign0 && v[0].sign0 != Sign::Zero;
+           v[0].sign0 == v[1].sign0 && v[0].sign0 != Sign::Zero &&
+           ridge.contact(v[0].sign0, v[0].sign0) == EdgeContact::None;
   };
   outer.first_planes = {values(r.a, q0, q1), values(r.b, q0, q1)};
-  if (never_grazes(outer.first_planes)) return;
+  if (never_touches(r, outer.first_planes)) return;
   outer.last_planes = {values(s.a, p0_, p1_), values(s.b, p0_, p1_)};
-  if (never_grazes(outer.last_planes)) return;
+  if (never_touches(s, outer.last_planes)) return;
   if (share_facet(r, s)) return;
   if (hidden_edge(s)) return;
   if (!gather(outer)) return;
@@ -250,10 +261,12 @@ bool EdgePairs::gather(const Outer& outer) {
     return PairCells::Linear{v.at0.value, v.at1.value, std::max(v.at0.error, v.at1.error),
                              v.sign0 == Sign::Zero, v.sign1 == Sign::Zero};
   };
-  cells_.begin({linear(outer.first_planes[0]), linear(outer.first_planes[1])},
-               {linear(outer.last_planes[0]), linear(outer.last_planes[1])},
-               (p1_ - p0_).norm(),
-               (scene_.point(last.points[1]) - scene_.point(last.points[0])).norm());
+  cells_.begin({{linear(outer.first_planes[0]), linear(outer.first_planes[1])},
+                touched_on_,
+                (p1_ - p0_).norm()},
+               {{linear(outer.last_planes[0]), linear(outer.last_planes[1])},
+                touched_on(last),
+                (scene_.point(last.points[1]) - scene_.point(last.points[0])).norm()});
   for (const int face : faces_) {
     if (is_of(first, face) || is_of(last, face)) continue;
     const auto& [p, q] = planes_of(outer, face);
@@ -280,8 +293,8 @@ bool EdgePairs::gather(const Outer& outer) {
           return g_.convex_solid(o) && (share(std::span(&o, 1), first.objects) ||
                                         share(std::span(&o, 1), last.objects));
         });
-    middle_allowed_[m] = !own && &ridge != &first && &ridge != &last &&
-                         selection_.has(m) &&
+    middle_allowed_[m] = !own && ridge.can_graze() && &ridge != &first &&
+                         &ridge != &last && selection_.has(m) &&
                          (outer_through || selection_.goes_through(m)) &&
                          !share_facet(ridge, first) && !share_facet(ridge, last);
     return middle_allowed_[m] != 0;
@@ -400,12 +413,13 @@ void EdgePairs::visit_curve(const Outer& outer, int middle, bool turned,
     bool covered = false;
     find_blocked(outer, r, curve, stretch.part, stretch.f0, turned, covered, degenerate);
     if (covered) continue;
-    for (const CurveInterval& open : open_parts(curve, stretch.part)) {
+    for (const CurveInterval& part : open_parts(curve, stretch.part)) {
+      const Stretch open{part, stretch.f0, stretch.ends};
       if (!degenerate) {
         add_arc(outer, curve, middle, open, out);
         continue;
       }
-      for (const CurveInterval& free : free_parts(outer, curve, open)) {
+      for (const Stretch& free : free_parts(outer, curve, open)) {
         add_arc(outer, curve, middle, free, out);
       }
     }
@@ -413,26 +427,29 @@ void EdgePairs::visit_curve(const Outer& outer, int middle, bool turned,
 }
 
 void EdgePairs::add_arc(const Outer& outer, const EeeCurve& curve, int middle,
-                        const CurveInterval& part, std::vector<FoundArc>& out) {
+                        const Stretch& stretch, std::vector<FoundArc>& out) {
+  const CurveInterval& part = stretch.part;
   const Ridge& first = g_.ridges()[outer.first];
   const Ridge& between = g_.ridges()[middle];
   const Ridge& last = g_.ridges()[outer.last];
   FoundArc found;
   found.arc.edges = {first.edge, between.edge, last.edge};
+  found.arc.ends = stretch.ends;
   found.arc.range = {curve.rounded(part.from), curve.rounded(part.to)};
   found.arc.self = share(first.objects, between.objects) ||
                    share(between.objects, last.objects) ||
                    share(first.objects, last.objects);
-  found.ends = {node_at(outer, curve, middle, part.from),
-                node_at(outer, curve, middle, part.to)};
+  found.ends = {node_at(outer, curve, middle, part.from, stretch),
+                node_at(outer, curve, middle, part.to, stretch)};
   out.push_back(std::move(found));
 }
 
 // The general way, for lines in the planes of faces or along touched edges: between any
 // two critical positions the contacts of one line decide.
-std::vector<CurveInterval> EdgePairs::free_parts(const Outer& outer,
-                                                 const EeeCurve& curve,
-                                                 const CurveInterval& open) {
+std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
+                                                      const EeeCurve& curve,
+                                                      const Stretch& stretch) {
+  const CurveInterval& open = stretch.part;
   std::vector<CurveCut> stops;
   const auto add = [&](const CurveCut& cut) {
     if (curve.compare(open.from, cut) == Sign::Negative &&
@@ -492,25 +509,40 @@ std::vector<CurveInterval> EdgePairs::free_parts(const Outer& outer,
 
   std::vector<int> faces(faces_.begin(), faces_.end());
   std::sort(faces.begin(), faces.end());
-  const auto free_line = [&](const std::optional<std::array<ExactPoint, 2>>& line) {
-    return line && is_free(LineScan(scene_, faces, (*line)[0], (*line)[1]));
+  // Which outer contacts are end contacts; nullopt when the line is not free.
+  using State = std::optional<std::array<bool, 2>>;
+  const Ridge& first = g_.ridges()[outer.first];
+  const Ridge& last = g_.ridges()[outer.last];
+  const auto state_of =
+      [&](const std::optional<std::array<ExactPoint, 2>>& line) -> State {
+    if (!line) return std::nullopt;
+    const LineScan scan(scene_, faces, (*line)[0], (*line)[1]);
+    if (!g_.polygon()) return is_free(scan) ? State(stretch.ends) : std::nullopt;
+    const State ends = blocked_ends(g_, scan);
+    const bool possible = ends && ((*ends)[0] ? first.can_end() : first.can_graze()) &&
+                          ((*ends)[1] ? last.can_end() : last.can_graze());
+    return possible ? ends : std::nullopt;
   };
-  std::vector<CurveInterval> free;
+  std::vector<Stretch> free;
   std::optional<CurveCut> begin;
+  State state;  // from `begin` on
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     const auto s = curve.between(stops[i], stops[i + 1]);
-    const bool open_here = s && free_line(curve.points_at(*s));
+    const State here = s ? state_of(curve.points_at(*s)) : std::nullopt;
     if (begin && i > 0) {
       // The arc goes on through a critical line that is free itself.
       const auto line = curve.points_at(stops[i]);
-      if (!open_here || (line && !free_line(line))) {
-        free.push_back({*begin, stops[i]});
+      if (here != state || (line && state_of(line) != state)) {
+        free.push_back({{*begin, stops[i]}, stretch.f0, *state});
         begin.reset();
       }
     }
-    if (open_here && !begin) begin = stops[i];
+    if (here && !begin) {
+      begin = stops[i];
+      state = here;
+    }
   }
-  if (begin) free.push_back({*begin, stops.back()});
+  if (begin) free.push_back({{*begin, stops.back()}, stretch.f0, *state});
   return free;
 }
 
@@ -587,7 +619,10 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
     add(linear(outer.last_planes[k]), CurveCutKind::OnPlane, last.facets[k],
         {last.points[1 - k], last.points[k], last.thirds[k]}, false);
   }
-  if (same_everywhere(constraints_[6], constraints_[7])) return;
+  if (same_everywhere(constraints_[6], constraints_[7])) {
+    const Sign side = constraints_[6].values.sign0;
+    if (last.contact(side, side) == EdgeContact::None) return;
+  }
   // 8, 9: planes at the first edge, at Q(t(s)).
   const Ridge& first = g_.ridges()[outer.first];
   for (int k = 0; k < 2; ++k) {
@@ -621,10 +656,15 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
     const auto at_first = [&](int c) {
       return constraints_[c].times_f0 ? sign[c] * sign[0] : sign[c];
     };
+    const EdgeContact last_contact = last.contact(sign[6], sign[7]);
+    const EdgeContact first_contact = first.contact(at_first(8), at_first(9));
     if (sign[0] != sign[1] && sign[2] != sign[3] && differ(sign[4], sign[5]) &&
-        differ(sign[6], sign[7]) && differ(at_first(8), at_first(9)) &&
+        last_contact != EdgeContact::None && first_contact != EdgeContact::None &&
         sign[0] == beside && curve.compare(from, to) == Sign::Negative) {
-      stretches_.push_back({{from, to}, sign[0]});
+      stretches_.push_back(
+          {{from, to},
+           sign[0],
+           {first_contact == EdgeContact::End, last_contact == EdgeContact::End}});
     }
     if (k == count) break;
     const auto c = static_cast<std::size_t>(order[k] - constraints_.data());
@@ -728,8 +768,68 @@ std::vector<CurveInterval> EdgePairs::open_parts(const EeeCurve& curve,
   return open;
 }
 
+// Polygon mode: which outer contacts of the line at a cut are end contacts, first edge
+// first.  Where one changes from a graze into an end the line lies in the plane of a
+// face, which it grazes.
+std::array<bool, 2> EdgePairs::ends_at(const Outer& outer, const EeeCurve& curve,
+                                       const CurveCut& cut,
+                                       const Stretch& stretch) const {
+  const auto [first, last] = stretch.ends;
+  const auto at_corner = [&](int corner) {
+    return ends_at_corner(outer, curve, cut, corner, stretch.f0);
+  };
+  switch (cut.kind) {
+    case CurveCutKind::Start:
+      return {at_corner(outer.points.p[0]), last};
+    case CurveCutKind::End:
+      return {at_corner(outer.points.p[1]), last};
+    case CurveCutKind::Far:
+      return {first, at_corner(cut.feature)};
+    case CurveCutKind::OnFirst:
+      return {false, last};
+    case CurveCutKind::OnPlane: {
+      const auto& facets = g_.ridges()[outer.last].facets;
+      const bool at_last = cut.feature == facets[0] || cut.feature == facets[1];
+      return {first, last && !at_last};
+    }
+    default:
+      return {first, last};
+  }
+}
+
+// Whether the corner at a cut is an end contact: all its faces show their fronts to the
+// other outer contact.  For corners of convex solids; contacts at others are listed.
+bool EdgePairs::ends_at_corner(const Outer& outer, const EeeCurve& curve,
+                               const CurveCut& cut, int corner, Sign f0) const {
+  const Star& star = g_.stars()[g_.star_of_point(corner)];
+  if (!star.convex) return false;
+  const auto& o = outer.points;
+  return std::all_of(star.faces.begin(), star.faces.end(), [&](int face) {
+    const PlaneSide& plane = g_.face_plane(face);
+    if (cut.kind != CurveCutKind::Far) {
+      const PlaneValues q = values(plane, o.at(o.q[0]), o.at(o.q[1]));
+      if (q.sign0 == q.sign1) return q.sign0 == Sign::Positive;
+      // Times F0 - F1, which has the sign of F0.
+      const BoundedLinear l =
+          curve.at_last_edge(q.at0, q.at1, plane_points(scene_, face));
+      return (cut.kind == CurveCutKind::Start ? l.sign0 : l.sign1) * f0 == Sign::Positive;
+    }
+    const PlaneValues p = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+    if (p.sign0 == p.sign1) return p.sign0 == Sign::Positive;
+    if (p.sign0 == Sign::Zero) return p.sign1 == Sign::Positive;
+    if (p.sign1 == Sign::Zero) return p.sign0 == Sign::Positive;
+    CurveCut root{CurveCutKind::OnPlane,      false, scene_.faces()[face].facet,
+                  plane_points(scene_, face), 0,     1};
+    enclose_root({p.at0.value, p.at1.value, p.at0.error, p.at1.error, p.sign0, p.sign1},
+                 root);
+    const Sign order = curve.compare(cut, root);
+    return (order == Sign::Negative ? p.sign0 : p.sign1) == Sign::Positive &&
+           order != Sign::Zero;
+  });
+}
+
 FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int middle,
-                             const CurveCut& cut) {
+                             const CurveCut& cut, const Stretch& stretch) {
   const auto edge = [&](int ridge) {
     return Generator{GeneratorKind::Edge, g_.ridges()[ridge].edge};
   };
@@ -804,6 +904,10 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
   const auto& o = outer.points;
   node.segment = {o.at(o.p[0]) + s * (o.at(o.p[1]) - o.at(o.p[0])),
                   o.at(o.q[0]) + t * (o.at(o.q[1]) - o.at(o.q[0]))};
+  if (g_.polygon()) {
+    node.ends = ends_at(outer, curve, cut, stretch);
+    if (cut.kind == CurveCutKind::Far) std::swap(node.ends[0], node.ends[1]);
+  }
   if (may_touch_more(outer, curve, middle, cut) ||
       (g_.aligned() && may_touch_beyond(outer, curve, cut, node))) {
     list_contacts(outer, curve, cut, node);
@@ -814,6 +918,7 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
       node.generators[node.count - 1] < node.generators[0]) {
     std::reverse(node.generators.begin(), node.generators.begin() + node.count);
     std::swap(node.segment[0], node.segment[1]);
+    std::swap(node.ends[0], node.ends[1]);
   }
   if (cut.kind == CurveCutKind::Far) std::swap(node.segment[0], node.segment[1]);
   const auto objects = [&](const Generator& x) -> std::vector<std::int32_t> {
@@ -925,21 +1030,30 @@ bool EdgePairs::may_touch_beyond(const Outer& outer, const EeeCurve& curve,
 void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
                               const CurveCut& cut, FoundNode& node) const {
   NodeContacts all;
+  std::optional<NodeContacts> between;
   if (const auto points = curve.points_at(cut)) {
     const auto& [a, b] = *points;
     const LineScan scan(scene_, faces_near_line(g_, rounded(a), rounded(b)), a, b);
-    const bool end = contacts_between(g_, scan).end;
-    all = contacts_along(g_, scan, *points, end);
+    between = contacts_between(g_, scan);
+    all = contacts_along(g_, scan, *points, between->end);
   } else if (const auto line = curve.line_at(cut)) {
     const auto edge = [&](int ridge) { return g_.ridges()[ridge].edge; };
     all = contacts_along(g_, *line, {edge(outer.first), edge(outer.last)});
   }
   if (all.generators.empty()) return;
+  if (all.kind == node.kind && g_.polygon()) {
+    const bool told = between && (!between->end || between->ends[0] || between->ends[1]);
+    if (!told) return;  // blocked in between: as the arc's
+    node.ends = between->ends;
+    if (cut.kind == CurveCutKind::Far) std::swap(node.ends[0], node.ends[1]);
+    return;
+  }
   if (all.kind == node.kind && !all.end)
     return;  // nothing new; no kind found is Degenerate
   node.kind = all.kind;
   node.self = all.self;
   node.end = all.end;
+  if (g_.polygon() && between) node.ends = all.ends;
   node.rising = all.second;
   node.all = all.generators;
   node.segment = all.segment;

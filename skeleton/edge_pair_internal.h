@@ -26,6 +26,8 @@ struct FoundNode {
   bool self = false, end = false;
   /// EEEE and Degenerate: which of the two lines.
   bool rising = false;
+  /// Polygon mode: the first, the last contact is an end contact.
+  std::array<bool, 2> ends{};
   std::uint8_t count = 0;
   std::array<Generator, 4> generators{};
   std::array<Point, 2> segment;
@@ -41,8 +43,7 @@ struct FoundArc {
 /// Visits pairs of ridges; keeps scratch, so one per thread.
 class EdgePairs {
  public:
-  EdgePairs(const Generators& generators, const Carriers& carriers,
-            const EeePart& part);
+  EdgePairs(const Generators& generators, const Carriers& carriers, const EeePart& part);
 
   /// Appends the arcs between ridge i and all ridges of higher number; breaks off, with
   /// some of them, once `stop` says so.
@@ -63,7 +64,7 @@ class EdgePairs {
   void prepare(int i);
   [[nodiscard]] int shadow_of(int face);
   [[nodiscard]] bool hides(int shadow, const Point& q0, const Point& q1) const;
-  [[nodiscard]] bool never_grazed_from(const Box& box) const;
+  [[nodiscard]] bool never_touched_from(const Box& box) const;
   [[nodiscard]] bool hidden(const Box& box);
   [[nodiscard]] bool hidden_edge(const Ridge& last);
   void visit_pair(int i, int j, std::vector<FoundArc>& out);
@@ -76,6 +77,11 @@ class EdgePairs {
   void visit_middles(const Outer& outer, bool turned, std::vector<FoundArc>& out);
   void visit_curve(const Outer& outer, int middle, bool turned,
                    std::vector<FoundArc>& out);
+  struct Stretch {
+    CurveInterval part;
+    Sign f0;
+    std::array<bool, 2> ends;  // polygon mode: the outer contacts are end contacts
+  };
   void find_stretches(const Outer& outer, const Ridge& middle, const EeeCurve& curve,
                       bool& degenerate);
   void find_blocked(const Outer& outer, const Ridge& middle, const EeeCurve& curve,
@@ -86,12 +92,16 @@ class EdgePairs {
   [[nodiscard]] std::vector<CurveInterval> open_parts(const EeeCurve& curve,
                                                       const CurveInterval& stretch);
   void add_arc(const Outer& outer, const EeeCurve& curve, int middle,
-               const CurveInterval& part, std::vector<FoundArc>& out);
-  [[nodiscard]] std::vector<CurveInterval> free_parts(const Outer& outer,
-                                                      const EeeCurve& curve,
-                                                      const CurveInterval& open);
+               const Stretch& stretch, std::vector<FoundArc>& out);
+  [[nodiscard]] std::vector<Stretch> free_parts(const Outer& outer, const EeeCurve& curve,
+                                                const Stretch& open);
   [[nodiscard]] FoundNode node_at(const Outer& outer, const EeeCurve& curve, int middle,
-                                  const CurveCut& cut);
+                                  const CurveCut& cut, const Stretch& stretch);
+  [[nodiscard]] std::array<bool, 2> ends_at(const Outer& outer, const EeeCurve& curve,
+                                            const CurveCut& cut,
+                                            const Stretch& stretch) const;
+  [[nodiscard]] bool ends_at_corner(const Outer& outer, const EeeCurve& curve,
+                                    const CurveCut& cut, int corner, Sign f0) const;
   [[nodiscard]] bool may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
                                     const CurveCut& cut);
   void list_contacts(const Outer& outer, const EeeCurve& curve, const CurveCut& cut,
@@ -115,6 +125,7 @@ class EdgePairs {
   Point p0_, p1_, middle_;
   Box first_box_;
   std::array<BoundedPlane, 2> wedge_;  // its planes
+  std::array<bool, 2> touched_on_{};   // from behind both, from in front of both
   std::vector<std::uint32_t> facet_stamp_;
   std::uint32_t stamp_ = 0;
   std::vector<std::array<Shadow, 2>> shadows_;
@@ -145,10 +156,6 @@ class EdgePairs {
     bool zero0 = false, zero1 = false;  // at the ends
   };
   std::vector<Constraint> constraints_;
-  struct Stretch {
-    CurveInterval part;
-    Sign f0;
-  };
   std::vector<Stretch> stretches_;
   std::vector<CurveInterval> closed_, parts_, next_;
 

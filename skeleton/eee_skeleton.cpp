@@ -92,7 +92,8 @@ class LineJoiner {
     SkeletonNode node;
     node.kind = found.kind;
     node.self = found.self;
-    node.end = found.end;
+    node.end = found.end || found.ends[0] || found.ends[1];
+    node.ends = found.ends;
     node.second = found.rising;
     node.first_generator = static_cast<std::uint32_t>(out_.generator_pool.size());
     node.generator_count = static_cast<std::uint32_t>(generators.size());

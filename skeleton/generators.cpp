@@ -185,6 +185,38 @@ std::optional<std::array<Rational, 2>> stretch_inside(const Scene& scene, int f,
   return std::array<Rational, 2>{low, high};
 }
 
+// The faces at coinciding edges of several objects, but for pairs that touch each other
+// back to front, lie in one plane: a seam at which nothing is to be seen.
+bool flush_seam(const Scene& scene, std::span<const PlaneSide> planes,
+                std::span<const int> faces, const Point& e0, const Point& e1) {
+  const auto third = [&](int f) {
+    const auto corners = scene.face_points(f);
+    return *std::find_if(corners.begin(), corners.end(),
+                         [&](int p) { return !collinear(e0, e1, scene.point(p)); });
+  };
+  const auto in_plane = [&](int f, int g) {
+    return planes[f](scene.point(third(g))) == Sign::Zero;
+  };
+  const auto touch = [&](int f, int g) {
+    if (!in_plane(f, g)) return false;
+    const InPlaneSide left_of(scene, f);
+    if (left_of(e0, e1, scene.point(third(f))) != left_of(e0, e1, scene.point(third(g))))
+      return false;
+    return std::any_of(faces.begin(), faces.end(), [&](int h) {
+      const Point& p = scene.point(third(h));
+      return planes[f](p) != Sign::Zero && planes[f](p) == -planes[g](p);
+    });
+  };
+  std::vector<int> seen;
+  for (const int f : faces) {
+    if (std::none_of(faces.begin(), faces.end(), [&](int g) { return touch(f, g); })) {
+      seen.push_back(f);
+    }
+  }
+  return std::all_of(seen.begin(), seen.end(),
+                     [&](int f) { return in_plane(seen[0], f); });
+}
+
 // The stretches cover the whole edge.
 bool cover_edge(std::vector<std::array<Rational, 2>> stretches) {
   std::sort(stretches.begin(), stretches.end());
@@ -205,8 +237,9 @@ Rational InPlaneSide::value(const Point& p, const Point& q, const Point& x) cons
          (Rational(q[j]) - Rational(p[j])) * (Rational(x[i]) - Rational(p[i]));
 }
 
-Generators::Generators(const Scene& scene, int /*threads*/)
+Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
     : scene_(&scene),
+      events_(events),
       face_boxes_(boxes_of_faces(scene)),
       face_tree_(face_boxes_),
       ridge_tree_(std::vector<Box>{}) {
@@ -344,8 +377,9 @@ void Generators::find_ridges() {
     const int b = extreme(Sign::Negative);
     if (a < 0 || b < 0) continue;
     // In a closed object the gap must be outside: fronts face it.
-    if (s.objects()[e.object].closed && thirds.size() > 1 && e.kind == EdgeKind::Reflex)
-      continue;
+    const bool closed = s.objects()[e.object].closed;
+    const bool reflex = closed && thirds.size() > 1 && e.kind == EdgeKind::Reflex;
+    if (reflex && !polygon()) continue;
     if (s.objects()[e.object].closed && e.kind == EdgeKind::NonManifold) {
       const auto fronts_gap = [&](int k, Sign wanted) {
         // Positive side of (e0, e1, third) is the wedge for a, the gap for b.
@@ -365,6 +399,7 @@ void Generators::find_ridges() {
     const Box box = box_between(e0, e1);
     EdgeTouch touched = EdgeTouch::None;
     std::vector<std::array<Rational, 2>> stretches;
+    std::vector<int> grounds;  // faces that contain a part of the edge
     face_tree_.traverse(
         [&](const Box& other) {
           return touched != EdgeTouch::ContainsInside && boxes_meet(box, other);
@@ -382,21 +417,40 @@ void Generators::find_ridges() {
           }
           const EdgeTouch touch = touch_of(s, face_planes_[f], f, e0, e1);
           touched = std::max(touched, touch);
+          if (touch == EdgeTouch::ContainsInside) grounds.push_back(f);
           if (touch == EdgeTouch::Touches && face_planes_[f](e0) == Sign::Zero &&
               face_planes_[f](e1) == Sign::Zero) {
             if (const auto stretch = stretch_inside(s, f, e0, e1))
-              stretches.push_back(*stretch);
+              stretches.push_back(*stretch), grounds.push_back(f);
           }
         });
-    if (cover_edge(std::move(stretches))) continue;
+    const bool covered = cover_edge(std::move(stretches));
+    const bool inside_faces = covered || touched == EdgeTouch::ContainsInside;
+    // The foot of a wall is a valley of the union.
+    const bool foot = polygon() && inside_faces &&
+                      std::all_of(grounds.begin(), grounds.end(), [&](int f) {
+                        return std::any_of(thirds.begin(), thirds.end(), [&](int p) {
+                          return face_planes_[f](s.point(p)) == Sign::Positive;
+                        });
+                      });
+    if (covered && !foot) continue;
     // Edges of several objects that coincide are one generator.
     if (!ridges_.empty() && ridges_.back().points == e.points) {
       ridges_.back().touched = true;
       ridges_.back().objects.push_back(e.object);
       ridge_of_edge_[i] = static_cast<int>(ridges_.size() - 1);
+      if (polygon()) {
+        std::vector<int> around;
+        for (auto k = static_cast<std::size_t>(ridges_.back().edge); k <= i; ++k) {
+          if (s.edges()[k].points != e.points) continue;
+          for (const Edge::Side& side : s.edges()[k].sides) around.push_back(side.face);
+        }
+        const bool crease = !flush_seam(s, face_planes_, around, e0, e1);
+        ridges_.back().ends_in_front = ridges_.back().ends_behind = crease;
+      }
       continue;
     }
-    if (touched == EdgeTouch::ContainsInside) continue;
+    if (inside_faces && !foot) continue;
     ridge_of_edge_[i] = static_cast<int>(ridges_.size());
     // Behind both planes is the wedge.
     ridges_.push_back({static_cast<std::int32_t>(i),
@@ -406,7 +460,15 @@ void Generators::find_ridges() {
                        PlaneSide({e0, e1, s.point(thirds[b])}),
                        {thirds[a], thirds[b]},
                        {s.faces()[faces[a]].facet, s.faces()[faces[b]].facet},
-                       touched == EdgeTouch::Touches});
+                       touched == EdgeTouch::Touches || foot});
+    if (polygon()) {
+      Ridge& ridge = ridges_.back();
+      ridge.grazes = !reflex;
+      ridge.foot = foot;
+      const bool crease = thirds.size() > 1 || foot;
+      ridge.ends_in_front = crease && !reflex;
+      ridge.ends_behind = crease && (reflex || !closed);
+    }
     boxes.push_back(box);
   }
   ridge_tree_ = Bvh(boxes);

@@ -12,10 +12,16 @@
 #include "linespace/contact_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
+#include "skeleton/skeleton.h"
 
 namespace sightline::internal {
 
+/// How a line meets an edge, coming from a viewpoint: not at all from outside, grazing,
+/// or entering the solid there.
+enum class EdgeContact : std::uint8_t { None, Graze, End };
+
 /// An edge with a free gap of more than half a turn around it: some lines graze there.
+/// In polygon mode also a crease at which lines only end.
 ///
 /// The faces at the edge lie in the wedge between half-planes A and B; a line through a
 /// point of the edge grazes iff it does not pass from the wedge into its opposite, that
@@ -30,6 +36,29 @@ struct Ridge {
   std::array<std::int32_t, 2> thirds, facets;
   /// A foreign face touches the open edge: lines there need the general contact test.
   bool touched;
+  /// Lines can graze: false for reflex edges.
+  bool grazes = true;
+  /// Inside other objects' faces: the foot of a wall; `touched` too.
+  bool foot = false;
+  /// Polygon mode: from a viewpoint strictly in front of both planes, strictly behind
+  /// both (inside the wedge), the edge is seen and the line ends there.
+  bool ends_in_front = false, ends_behind = false;
+
+  /// Polygon mode: lines can end here.
+  [[nodiscard]] bool can_end() const { return ends_in_front || ends_behind; }
+  /// Lines graze here, and not only end.
+  [[nodiscard]] bool can_graze() const { return grazes && !foot; }
+  /// The contact seen from a viewpoint with these signs of a and b.
+  [[nodiscard]] EdgeContact contact(Sign sign_a, Sign sign_b) const {
+    if (sign_a != sign_b || sign_a == Sign::Zero) {
+      if (grazes) return EdgeContact::Graze;
+      // In the plane of one face: along it from the free side, or else from inside.
+      const bool along = sign_a != Sign::Positive && sign_b != Sign::Positive;
+      return ends_behind && along ? EdgeContact::End : EdgeContact::None;
+    }
+    const bool ends = sign_a == Sign::Positive ? ends_in_front : ends_behind;
+    return ends ? EdgeContact::End : EdgeContact::None;
+  }
 };
 
 /// The faces around a corner, touching ones of other objects included.
@@ -56,9 +85,11 @@ struct Star {
 
 class Generators {
  public:
-  explicit Generators(const Scene& scene, int threads);
+  Generators(const Scene& scene, int threads, EventMode events = EventMode::Solid);
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
+  /// Polygon mode: ridges() holds creases at which lines only end too.
+  [[nodiscard]] bool polygon() const { return events_ == EventMode::Polygon; }
   [[nodiscard]] std::span<const Ridge> ridges() const { return ridges_; }
   /// Ridge number of a scene edge (the same for coinciding ones), -1 when lines never
   /// graze it.
@@ -104,6 +135,7 @@ class Generators {
   void find_aligned();
 
   const Scene* scene_;
+  EventMode events_;
   std::vector<Box> face_boxes_;
   Bvh face_tree_;
   Bvh ridge_tree_;

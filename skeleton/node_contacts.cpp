@@ -68,6 +68,74 @@ bool blocks_segment(const LineScan& scan, int contact) {
   return scan.blocked_between(contact, low / 2, (high + 1) / 2);
 }
 
+// Whether it blocks the part (0, 1) together with what it meets at one of its ends.
+bool blocks_with_end(const LineScan& scan, int contact, bool at_one) {
+  Rational low = at_one ? 0 : -1;
+  Rational high = at_one ? 2 : 1;
+  for (const Rational& t : scan.instants(contact)) {
+    if (!at_one && t < 0 && t > low) low = t;
+    if (at_one && t > 1 && t < high) high = t;
+  }
+  return at_one ? scan.blocked_between(contact, 0, (high + 1) / 2)
+                : scan.blocked_between(contact, low / 2, 1);
+}
+
+// Two faces of closed objects on the line at t lie on each other front to front: the line
+// is inside the union there.
+bool pressed_at(const Generators& g, const LineScan& scan, int contact,
+                const Rational& t) {
+  const Scene& scene = g.scene();
+  const std::vector<int> faces = scan.faces_at(contact, t);
+  const auto closed = [&](int f) {
+    return scene.objects()[scene.faces()[f].object].closed;
+  };
+  const auto opposite = [&](int f, int h) {
+    for (const int p : scene.corners()) {
+      const Sign s = g.face_plane(f)(scene.point(p));
+      if (s != Sign::Zero) return s == -g.face_plane(h)(scene.point(p));
+    }
+    return false;
+  };
+  const auto coplanar = [&](int f, int h) {
+    const auto corners = scene.face_points(h);
+    return std::all_of(corners.begin(), corners.end(), [&](int p) {
+      return g.face_plane(f)(scene.point(p)) == Sign::Zero;
+    });
+  };
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const int f = faces[i];
+      const int h = faces[j];
+      if (closed(f) && closed(h) && coplanar(f, h) && opposite(f, h)) return true;
+    }
+  }
+  return false;
+}
+
+// Where a contact that runs along faces is inside the union: somewhere in (0, 1), just
+// before 0, just after 1.
+struct Pressed {
+  bool inside = false;
+  std::array<bool, 2> beyond{};
+};
+Pressed pressed_parts(const Generators& g, const LineScan& scan, int contact) {
+  Pressed result;
+  if (scan.from(contact) == scan.to(contact)) return result;
+  std::vector<Rational> stops = scan.instants(contact);
+  stops.insert(stops.end(), {0, 1});
+  std::sort(stops.begin(), stops.end());
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const Rational& from = stops[i];
+    const Rational& to = stops[i + 1];
+    const bool before = to == 0;
+    const bool after = from == 1;
+    if (from == to || (!before && !after && (from < 0 || to > 1))) continue;
+    if (!pressed_at(g, scan, contact, (from + to) / 2)) continue;
+    (before ? result.beyond[0] : after ? result.beyond[1] : result.inside) = true;
+  }
+  return result;
+}
+
 bool meets_segment(const LineScan& scan, int contact) {
   return scan.to(contact) >= 0 && scan.from(contact) <= 1;
 }
@@ -233,6 +301,29 @@ bool is_free(const LineScan& scan) {
   return true;
 }
 
+std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
+                                                const LineScan& scan) {
+  std::array<bool, 2> ends{};
+  for (int i = 0; i < scan.size(); ++i) {
+    if (!meets_segment(scan, i) || !blocks_segment(scan, i)) continue;
+    const Pressed pressed = pressed_parts(g, scan, i);
+    if (pressed.inside) return std::nullopt;
+    const std::array<bool, 2> beyond = pressed.beyond;
+    ends = {ends[0] || beyond[0], ends[1] || beyond[1]};
+    const bool at_0 = scan.from(i) <= 0;
+    const bool at_1 = scan.to(i) >= 1;
+    const bool inside = scan.to(i) > 0 && scan.from(i) < 1;
+    if (inside && scan.blocked_between(i, 0, 1)) return std::nullopt;
+    const bool first = at_0 && !beyond[0] && blocks_with_end(scan, i, false);
+    const bool last = at_1 && !beyond[1] && blocks_with_end(scan, i, true);
+    // Neither alone but both together.
+    const bool together = !first && !last && !beyond[0] && !beyond[1];
+    ends[0] |= first || (at_0 && together);
+    ends[1] |= last || (at_1 && together);
+  }
+  return ends;
+}
+
 NodeContacts contacts_between(const Generators& g, const LineScan& scan) {
   std::vector<std::vector<Generator>> groups;
   bool free = true;
@@ -243,6 +334,7 @@ NodeContacts contacts_between(const Generators& g, const LineScan& scan) {
   }
   NodeContacts node = node_of(g, groups);
   node.end = !free;
+  if (!free && g.polygon()) node.ends = blocked_ends(g, scan).value_or(node.ends);
   return node;
 }
 
@@ -255,14 +347,27 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
     if (scan.from(c) <= 1 && scan.to(c) >= 1) last = c;
   }
   if (first < 0 || last < 0) return {};
-  first = last_contact(scan, first, -1);
-  last = last_contact(scan, last, 1);
+  std::array<bool, 2> stops_at{};
+  if (!g.polygon()) {
+    first = last_contact(scan, first, -1);
+    last = last_contact(scan, last, 1);
+  } else {
+    stops_at = {end && blocks_segment(scan, first), end && blocks_segment(scan, last)};
+    if (end) stops_at = blocked_ends(g, scan).value_or(stops_at);
+    if (!stops_at[0]) {
+      while (first > 0 && !scan.blocked(first - 1)) --first;
+    }
+    if (!stops_at[1]) {
+      while (last + 1 < scan.size() && !scan.blocked(last + 1)) ++last;
+    }
+  }
   std::vector<std::vector<Generator>> groups;
   for (int c = first; c <= last; ++c) groups.push_back(generators_of(g, scan, c));
   NodeContacts node = node_along(g, groups);
   node.segment = {rounded(along(line[0], line[1], scan.from(first))),
                   rounded(along(line[0], line[1], scan.to(last)))};
   if (node.turned) std::swap(node.segment[0], node.segment[1]);
+  node.ends = {stops_at[node.turned ? 1 : 0], stops_at[node.turned ? 0 : 1]};
   // A line along a face that ends where the face does.
   const bool stops = scan.blocked(first) || scan.blocked(last);
   node.end = end || (node.kind == NodeKind::FEE && stops);

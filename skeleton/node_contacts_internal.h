@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <array>
+#include <optional>
 #include <vector>
 
 #include "linespace/contact_internal.h"
@@ -24,11 +26,20 @@ namespace sightline::internal {
 /// No contact blocks the closed segment [0, 1] of the line.
 [[nodiscard]] bool is_free(const LineScan& scan);
 
+/// Whether the contact at 0, that at 1 blocks the closed segment [0, 1]; nullopt when
+/// some contact blocks it strictly in between.
+/// A part of the line that runs between two faces of closed objects that touch each other
+/// is inside the union, and blocked.
+[[nodiscard]] std::optional<std::array<bool, 2>> blocked_ends(
+    const Generators& generators, const LineScan& scan);
+
 /// A node as its contacts make it.
 struct NodeContacts {
   NodeKind kind = NodeKind::Degenerate;
   bool self = false;
-  bool end = false;                   ///< some contact blocks the segment
+  bool end = false;  ///< some contact blocks the segment
+  /// That at 0, that at 1 does; of contacts_along: in the order listed.
+  std::array<bool, 2> ends{};
   std::vector<Generator> generators;  ///< in order along the line
   bool turned = false;                ///< listed against the line's direction
   /// Of an irrational line: which of the two through the same edges.

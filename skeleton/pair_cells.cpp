@@ -81,21 +81,18 @@ Signs<4> signs(const BoundedForm& form, double s0, double s1, double t0, double 
   return out;
 }
 
-// On neither side of the wedge's planes a line can graze.
-bool never_grazes(const std::array<PairCells::Linear, 2>& planes, double x0, double x1) {
-  const Sign a = signs(planes[0], x0, x1).common();
-  return a != Sign::Zero && a == signs(planes[1], x0, x1).common();
+// No line from that part of the other edge touches this one.
+bool never_touched(const PairCells::Edge& edge, double x0, double x1) {
+  const Sign a = signs(edge.planes[0], x0, x1).common();
+  return a != Sign::Zero && !edge.touched_on[a == Sign::Positive ? 1 : 0] &&
+         a == signs(edge.planes[1], x0, x1).common();
 }
 
 }  // namespace
 
-void PairCells::begin(const std::array<Linear, 2>& first,
-                      const std::array<Linear, 2>& last, double first_length,
-                      double last_length) {
+void PairCells::begin(const Edge& first, const Edge& last) {
   first_ = first;
   last_ = last;
-  first_length_ = first_length;
-  last_length_ = last_length;
   faces_.clear();
   sides_.clear();
   occluders_.clear();
@@ -182,7 +179,7 @@ void PairCells::add_leaf(const Cell& cell, std::size_t begin, int occluder) {
 }
 
 void PairCells::visit(const Cell& cell, int depth, std::size_t begin, std::size_t end) {
-  if (never_grazes(first_, cell.t0, cell.t1) || never_grazes(last_, cell.s0, cell.s1)) {
+  if (never_touched(first_, cell.t0, cell.t1) || never_touched(last_, cell.s0, cell.s1)) {
     return;
   }
   const std::size_t kept = list_.size();
@@ -216,7 +213,7 @@ void PairCells::visit(const Cell& cell, int depth, std::size_t begin, std::size_
     } else {
       // Across the longer part of the two edges.
       const std::size_t last = list_.size();
-      if ((cell.s1 - cell.s0) * first_length_ > (cell.t1 - cell.t0) * last_length_) {
+      if ((cell.s1 - cell.s0) * first_.length > (cell.t1 - cell.t0) * last_.length) {
         const double s = 0.5 * (cell.s0 + cell.s1);
         visit({cell.s0, s, cell.t0, cell.t1}, depth + 1, kept, last);
         visit({s, cell.s1, cell.t0, cell.t1}, depth + 1, kept, last);

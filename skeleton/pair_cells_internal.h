@@ -36,11 +36,16 @@ class PairCells {
     bool forward;
   };
 
-  /// Begins a pair.  `first` and `last` are the values of the planes a and b of each edge
-  /// along the other: where both have one sign the edge is not grazed.  The lengths
-  /// decide which is divided first.
-  void begin(const std::array<Linear, 2>& first, const std::array<Linear, 2>& last,
-             double first_length, double last_length);
+  /// An outer edge: the values of its wedge's planes a and b along the other edge,
+  /// whether lines touch it from behind both and from in front of both, its length.
+  struct Edge {
+    std::array<Linear, 2> planes;
+    std::array<bool, 2> touched_on;
+    double length;
+  };
+
+  /// Begins a pair.
+  void begin(const Edge& first, const Edge& last);
   /// A face between the edges, with its plane's values along the first and along the
   /// last; faces of one convex occluder share a number; `front_only` when segments enter
   /// the face's solid before they can leave it.
@@ -85,8 +90,7 @@ class PairCells {
   [[nodiscard]] std::optional<Corners> passage(const Face& face, const Cell& cell);
   void add_leaf(const Cell& cell, std::size_t begin, int occluder);
 
-  std::array<Linear, 2> first_{}, last_{};
-  double first_length_ = 0, last_length_ = 0;
+  Edge first_{}, last_{};
   std::vector<Face> faces_;
   std::vector<Side> sides_;
   std::vector<std::int64_t> occluders_;

@@ -109,8 +109,9 @@ Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
   const auto start = Clock::now();
   Skeleton skeleton;
   const StageCounts before = thread_stage_counts();
-  const Generators generators(scene, internal::threads_of(request));
+  const Generators generators(scene, internal::threads_of(request), request.events);
   skeleton.predicates = internal::difference(thread_stage_counts(), before);
+  skeleton.events = request.events;
   skeleton.simplified = internal::simplified_by(scene, request.feature_size);
   build_ev(generators, request, start, 1, skeleton);
   return skeleton;
@@ -120,8 +121,9 @@ Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
   const auto start = Clock::now();
   Skeleton skeleton;
   const StageCounts before = thread_stage_counts();
-  const Generators generators(scene, internal::threads_of(request));
+  const Generators generators(scene, internal::threads_of(request), request.events);
   skeleton.predicates = internal::difference(thread_stage_counts(), before);
+  skeleton.events = request.events;
   skeleton.simplified = internal::simplified_by(scene, request.feature_size);
   const double share = !request.ev ? 0 : request.eee ? 0.3 : request.ff ? 0.9 : 1;
   const double last = request.ff ? (request.ev || request.eee ? 0.9 : 0) : 1;

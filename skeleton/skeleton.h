@@ -2,9 +2,9 @@
 // edge; EEE, through three edges), exactly, with the extremal stabbing lines at their
 // ends.
 //
-// Solid mode as the project's contract defines it.  A generator is a point id or an edge
-// id of the scene; contacts are derived from geometry, so that touching solids count as
-// their union.
+// Solid and polygon mode as the project's contract defines them (docs/polygon_mode.md). A
+// generator is a point id or an edge id of the scene; contacts are derived from geometry,
+// so that touching solids count as their union.
 
 #pragma once
 
@@ -22,6 +22,11 @@
 #include "linespace/scene.h"
 
 namespace sightline {
+
+/// Which contacts make events.  Solid: those at which the line grazes.  Polygon: the two
+/// outermost ones may also be *end* contacts, a visible crease (convex or reflex edge) or
+/// corner at which the line enters its solid, so that the free segment ends there.
+enum class EventMode : std::uint8_t { Solid, Polygon };
 
 /// What an extremal stabbing line is held by, vertex first in the name; Degenerate lines
 /// have more contacts than four degrees of freedom need; FF lies in the planes of two
@@ -56,11 +61,14 @@ struct SkeletonNode {
   /// Two contacts are on one object (counted under "..._self").
   bool self = false;
   /// The first or the last contact is a corner at which the line enters its solid: the
-  /// line ends there rather than grazes (counted under "end").
+  /// line ends there rather than grazes (counted under "end").  In polygon mode: one of
+  /// `ends`.
   bool end = false;
   /// EEEE: which of the two lines through the four edges; Degenerate: which of two
   /// irrational lines through the same edges.
   bool second = false;
+  /// Polygon mode: the first, the last contact is an end contact.
+  std::array<bool, 2> ends{};
   /// Generators in order along the line: `count` of them from Skeleton::generators().  VV
   /// begins with the smaller vertex, VEE and FvE with their vertex, others from the end
   /// with the smaller generators: however the line was found.
@@ -74,22 +82,26 @@ struct SkeletonNode {
 /// Exact.
 inline constexpr double kRangeError = 0x1p-40;
 
-/// A maximal open interval of an edge that one vertex sees and supports.
+/// A maximal open interval of an edge that one vertex sees, with the same contacts: in
+/// solid mode it grazes both, in polygon mode either may be an end contact all along.
 struct SkeletonArc {
-  std::int32_t vertex;  ///< point id
-  std::int32_t edge;    ///< edge id
-  bool self = false;    ///< vertex and edge are of one object
+  std::int32_t vertex;         ///< point id
+  std::int32_t edge;           ///< edge id
+  bool self = false;           ///< vertex and edge are of one object
+  std::array<bool, 2> ends{};  ///< the vertex, the edge is an end contact
   /// Parameters along the edge (0 at points[0], 1 at points[1]), rounded to double, of
   /// the ends of the open interval, and the nodes there.
   std::array<double, 2> range;
   std::array<std::uint32_t, 2> nodes;
 };
 
-/// A connected set of lines through three edges that support and see along them.
+/// A connected set of lines through three edges that support and see along them; in
+/// polygon mode either outer edge may be an end contact all along.
 struct EeeArc {
   /// Edge ids in order along the line, starting from the one that `range` is told on.
   std::array<std::int32_t, 3> edges;
-  bool self = false;  ///< two of the edges are of one object
+  bool self = false;           ///< two of the edges are of one object
+  std::array<bool, 2> ends{};  ///< the first, the last edge is an end contact
   /// Parameters on edges[0], rounded, of the ends of the open interval, and the nodes.
   std::array<double, 2> range;
   std::array<std::uint32_t, 2> nodes;
@@ -100,6 +112,7 @@ struct SkeletonRequest : Request {
   /// Kinds of line sets that build_skeleton() looks for; with EV come the VV, VEE, FvE
   /// and EVE nodes, with EEE the VEE, EVE, EEEE and FEE nodes.
   bool ev = true, eee = true;
+  EventMode events = EventMode::Solid;
   /// Whether FF nodes are looked for too: free lines in the planes of two facets, across
   /// the inside of both (of one object: `self`).  They end no arc, so they come only when
   /// asked for.  Facets in parallel planes have none, nor have those that are planar only
@@ -169,6 +182,7 @@ struct Skeleton {
   std::vector<SkeletonArc> arcs;  ///< EV
   std::vector<EeeArc> eee_arcs;
   std::vector<Generator> generator_pool;
+  EventMode events = EventMode::Solid;
   bool complete = true;
   std::size_t vertices_done = 0, vertices_asked = 0;
   /// First edges of EEE arcs, each with all edges of higher number.

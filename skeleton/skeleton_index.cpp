@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "skeleton/node_structure_internal.h"
+
 namespace sightline {
 namespace {
 
@@ -24,40 +26,11 @@ std::string name(NodeKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-// How many EV and EEE arcs end at a node of general position; nothing for other nodes.
-struct Structure {
-  bool asked = false;
-  int ev = 0, eee = 0;
-};
-
-Structure structure_of(const SkeletonNode& node) {
-  if (node.self) return {};
-  if (node.end) {
-    const bool known = node.kind == NodeKind::VEE || node.kind == NodeKind::FEE;
-    return {known, 0, 1};
-  }
-  switch (node.kind) {
-    case NodeKind::VV:
-      return {true, 4, 0};
-    case NodeKind::VEE:
-      return {true, 1, 2};
-    case NodeKind::FvE:
-      return {true, 1, 0};
-    case NodeKind::FF:
-      return {true, 0, 0};
-    case NodeKind::EVE:
-    case NodeKind::EEEE:
-    case NodeKind::FEE:
-      return {true, 0, 2};
-    default:
-      return {};
-  }
-}
-
 }  // namespace
 
 SkeletonIndex::SkeletonIndex(const Scene& scene, const Skeleton& skeleton)
-    : skeleton_(skeleton),
+    : scene_(scene),
+      skeleton_(skeleton),
       points_(scene.points().size()),
       edges_(scene.edges().size()),
       facets_(scene.facets().size()) {
@@ -128,17 +101,17 @@ std::span<const std::uint32_t> SkeletonIndex::nodes_of(const Generator& generato
 std::vector<std::string> SkeletonIndex::check_invariants() const {
   std::vector<std::string> wrong;
   for (std::uint32_t i = 0; i < skeleton_.nodes.size(); ++i) {
-    const Structure expected = structure_of(skeleton_.nodes[i]);
-    if (!expected.asked) continue;
+    const auto expected = internal::node_structure(scene_, skeleton_, skeleton_.nodes[i]);
+    if (!expected) continue;
     int ev = 0;
     int eee = 0;
     for (const ArcRef& arc : arcs_at(i)) ++(arc.kind == ArcKind::EV ? ev : eee);
-    if (ev == expected.ev && eee == expected.eee) continue;
+    if (ev == expected->ev && eee == expected->eee) continue;
     wrong.push_back("node " + std::to_string(i) + ", " + name(skeleton_.nodes[i].kind) +
                     (skeleton_.nodes[i].end ? " end" : "") + ": ends " +
                     std::to_string(ev) + " EV and " + std::to_string(eee) +
-                    " EEE arcs instead of " + std::to_string(expected.ev) + " and " +
-                    std::to_string(expected.eee));
+                    " EEE arcs instead of " + std::to_string(expected->ev) + " and " +
+                    std::to_string(expected->eee));
   }
   return wrong;
 }

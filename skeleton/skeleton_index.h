@@ -22,8 +22,8 @@ struct ArcRef {
   friend auto operator<=>(const ArcRef&, const ArcRef&) = default;
 };
 
-/// Immutable; safe to share between threads; keeps a reference to the skeleton.  Built in
-/// time linear in its size; every look-up is a slice of an array, no geometry.
+/// Immutable; safe to share between threads; keeps references to scene and skeleton.
+/// Built in time linear in its size; every look-up is a slice of an array, no geometry.
 class SkeletonIndex {
  public:
   /// `skeleton` must be of this scene.
@@ -40,12 +40,17 @@ class SkeletonIndex {
   [[nodiscard]] std::span<const std::uint32_t> nodes_of(const Generator& generator) const;
 
   /// What general position demands of every node and this skeleton does not have, one
-  /// line each, naming the node; empty when all is well.  The catalogue, as ends of arcs:
+  /// line each, naming the node; empty when all is well.  Solid mode, as ends of arcs:
   ///   VV 4 EV;  VEE 1 EV and 2 EEE;  FvE 1 EV;  EVE, EEEE, FEE 2 EEE;
   ///   FF none (what meets there are lines in a face's plane along an edge);
   /// an `end` node of VEE or FEE ends 1 EEE arc.  Degenerate, saddle, pierce, `_self`
-  /// nodes and the other `end` nodes are not in general position and not asked.  Requires
-  /// a complete skeleton of both kinds.
+  /// nodes and the other `end` nodes are not in general position and not asked.  Polygon
+  /// mode, with n(v, x) edges at corner v that are not between two backs, seen from x:
+  ///   VV n(v, w) + n(w, v) EV;  VEE 1 EV and n(v, e) EEE;  EVE and EEEE 2 EEE;
+  ///   FvE 2 EV where the face lies beyond the corner, else 1;
+  ///   FEE 3 EEE where the face is an outer contact, else 2;
+  /// `end` or not.  Not asked there: corners that are neither convex nor of a sheet,
+  /// faces of sheets.  Requires a complete skeleton of both kinds.
   [[nodiscard]] std::vector<std::string> check_invariants() const;
 
  private:
@@ -57,6 +62,7 @@ class SkeletonIndex {
   }
   [[nodiscard]] std::size_t slot(const Generator& generator) const;
 
+  const Scene& scene_;
   const Skeleton& skeleton_;
   std::size_t points_, edges_, facets_;
   std::vector<std::uint32_t> node_starts_, arc_starts_, used_starts_;

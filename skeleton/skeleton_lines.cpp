@@ -45,8 +45,9 @@ std::optional<Rational> blocked_beyond(const LineScan& scan, int contact,
   return std::nullopt;
 }
 
-// The free segment through positions 0 and 1, which is free itself.
-FreeSegment free_segment(const LineScan& scan) {
+// The free segment through positions 0 and 1, which is free itself but for the contacts
+// at 0 and at 1 where `ends` says that it ends there.
+FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends = {}) {
   FreeSegment out{-kInfinity, kInfinity, {}, {}, {}};
   const auto add = [&](int c) {
     out.contacts.push_back({scan.from(c).convert_to<double>(),
@@ -59,6 +60,11 @@ FreeSegment free_segment(const LineScan& scan) {
   for (int c = low + 1; c >= 0; --c) {
     if (c >= scan.size() || scan.from(c) > 0) continue;
     const bool through = scan.to(c) >= 0;
+    if (through && ends[0]) {
+      out.from = 0;
+      out.from_faces = scan.faces_at(c, 0);
+      break;
+    }
     if (through) {
       if (const auto t = scan.from(c) < 0 && scan.blocked(c)
                              ? blocked_beyond(scan, c, 0, -1)
@@ -78,6 +84,12 @@ FreeSegment free_segment(const LineScan& scan) {
   }
   for (auto c = before.rbegin(); c != before.rend(); ++c) add(*c);
   for (int c = low + 1; c < scan.size(); ++c) {
+    if (ends[0] && scan.from(c) <= 0 && scan.to(c) <= 0) continue;
+    if (ends[1] && scan.from(c) <= 1 && scan.to(c) >= 1) {
+      out.to = 1;
+      out.to_faces = scan.faces_at(c, 1);
+      break;
+    }
     if (scan.from(c) <= 1) {
       add(c);
       if (scan.to(c) > 1 && scan.blocked(c)) {
@@ -105,9 +117,10 @@ struct SkeletonLines::Impl {
   explicit Impl(const Scene& s)
       : scene(s), generators(s, 1), carriers(generators), far(generators, carriers) {}
 
-  [[nodiscard]] FreeSegment line(const ExactPoint& a, const ExactPoint& b) const {
+  [[nodiscard]] FreeSegment line(const ExactPoint& a, const ExactPoint& b,
+                                 const std::array<bool, 2>& ends) const {
     const auto faces = faces_near_line(generators, rounded(a), rounded(b));
-    return free_segment(LineScan(scene, faces, a, b));
+    return free_segment(LineScan(scene, faces, a, b), ends);
   }
   [[nodiscard]] ExactPoint point(int id) const {
     return internal::exact_point(scene.point(id));
@@ -138,7 +151,8 @@ FreeSegment SkeletonLines::line(const SkeletonArc& arc, double s) const {
   const Edge& edge = impl_->scene.edges()[arc.edge];
   return impl_->line(
       impl_->point(arc.vertex),
-      along(impl_->point(edge.points[0]), impl_->point(edge.points[1]), Rational(s)));
+      along(impl_->point(edge.points[0]), impl_->point(edge.points[1]), Rational(s)),
+      arc.ends);
 }
 
 std::optional<FreeSegment> SkeletonLines::line(const EeeArc& arc, double s) const {
@@ -150,7 +164,7 @@ std::optional<FreeSegment> SkeletonLines::line(const EeeArc& arc, double s) cons
   const auto q =
       impl_->crossing(arc.edges[2], p, impl_->point(middle[0]), impl_->point(middle[1]));
   if (!q) return std::nullopt;
-  return impl_->line(p, *q);
+  return impl_->line(p, *q, arc.ends);
 }
 
 std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) const {
@@ -209,9 +223,9 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) 
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     const double middle = stops[i] + 0.5 * (stops[i + 1] - stops[i]);
     if (!(middle > stops[i] && middle < stops[i + 1])) continue;
-    Piece piece{
-        {stops[i], stops[i + 1]},
-        free_segment(LineScan(scene, faces, eye, along(x0, x1, Rational(middle))))};
+    Piece piece{{stops[i], stops[i + 1]},
+                free_segment(LineScan(scene, faces, eye, along(x0, x1, Rational(middle))),
+                             arc.ends)};
     if (!pieces.empty() && pieces.back().line.from_faces == piece.line.from_faces &&
         pieces.back().line.to_faces == piece.line.to_faces) {
       pieces.back().range[1] = stops[i + 1];
@@ -289,7 +303,8 @@ std::vector<SkeletonLines::EndPiece> SkeletonLines::ends(const EeeArc& arc) cons
 
 std::optional<FreeSegment> SkeletonLines::line(const Skeleton& skeleton,
                                                const SkeletonNode& node) const {
-  if (node.end) return std::nullopt;
+  const bool told = node.ends[0] || node.ends[1];
+  if (node.end && (!told || node.kind == NodeKind::Degenerate)) return std::nullopt;
   const auto generators = skeleton.generators(node);
   std::vector<int> vertices, edges, facets;
   for (const Generator& g : generators) {
@@ -299,7 +314,8 @@ std::optional<FreeSegment> SkeletonLines::line(const Skeleton& skeleton,
         .push_back(g.id);
   }
   if (vertices.size() >= 2) {
-    return impl_->line(impl_->point(vertices.front()), impl_->point(vertices.back()));
+    return impl_->line(impl_->point(vertices.front()), impl_->point(vertices.back()),
+                       node.ends);
   }
   if (vertices.size() != 1 || edges.empty()) return std::nullopt;
   const ExactPoint v = impl_->point(vertices[0]);
@@ -310,12 +326,12 @@ std::optional<FreeSegment> SkeletonLines::line(const Skeleton& skeleton,
     const auto x =
         impl_->crossing(last, v, impl_->point(other[0]), impl_->point(other[1]));
     if (!x) return std::nullopt;
-    if (node.kind != NodeKind::EVE) return impl_->line(v, *x);
+    if (node.kind != NodeKind::EVE) return impl_->line(v, *x, node.ends);
     const auto& far = scene.edges()[last].points;
     const auto y =
         impl_->crossing(edges.front(), v, impl_->point(far[0]), impl_->point(far[1]));
     if (!y) return std::nullopt;
-    return impl_->line(*y, *x);
+    return impl_->line(*y, *x, node.ends);
   }
   if (edges.size() == 1 && facets.size() == 1) {
     // The face of the facet at the vertex gives the plane.
@@ -324,7 +340,7 @@ std::optional<FreeSegment> SkeletonLines::line(const Skeleton& skeleton,
       const auto p = internal::plane_points(scene, f);
       const auto x = impl_->crossing(last, impl_->point(p[0]), impl_->point(p[1]),
                                      impl_->point(p[2]));
-      if (x) return impl_->line(v, *x);
+      if (x) return impl_->line(v, *x, node.ends);
     }
   }
   return std::nullopt;

@@ -20,6 +20,7 @@ class SkeletonLines {
   ~SkeletonLines();
   SkeletonLines(SkeletonLines&&) noexcept;
 
+  /// All of them: where a contact is an end contact the free segment ends there.
   /// The line through the arc's vertex (position 0) and the point of its edge at
   /// parameter s (position 1), exactly, for s strictly inside the arc's range.  Cost:
   /// some 10 microseconds.
@@ -55,8 +56,9 @@ class SkeletonLines {
   [[nodiscard]] std::vector<EndPiece> ends(const EeeArc& arc) const;
 
   /// The line of a node, from its first contact (position 0) to its last (1).  nullopt
-  /// for lines that end at their last contact, for degenerate ones without two corners,
-  /// and for kinds without a corner (EEEE, whose lines are irrational, FEE, pierce).
+  /// for `end` nodes of solid mode and degenerate ones of polygon mode, for degenerate
+  /// ones without two corners, and for kinds without a corner (EEEE, whose lines are
+  /// irrational, FEE, pierce).
   [[nodiscard]] std::optional<FreeSegment> line(const Skeleton& skeleton,
                                                 const SkeletonNode& node) const;
 

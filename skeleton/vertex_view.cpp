@@ -36,11 +36,13 @@ bool contains(std::span<const std::int32_t> sorted, std::int32_t x) {
 
 std::uint32_t VertexView::add_node(NodeKind kind, bool self, bool end,
                                    std::span<const Generator> generators,
-                                   const std::array<Point, 2>& segment) {
+                                   const std::array<Point, 2>& segment,
+                                   const std::array<bool, 2>& ends) {
   SkeletonNode node;
   node.kind = kind;
   node.self = self;
-  node.end = end;
+  node.end = end || ends[0] || ends[1];
+  node.ends = ends;
   node.first_generator = static_cast<std::uint32_t>(pool.size());
   node.generator_count = static_cast<std::uint32_t>(generators.size());
   node.segment = segment;
@@ -172,6 +174,12 @@ struct VertexViewer::Pair {
   std::vector<std::int32_t> edge_facets{};
   bool mild = false;        // some sign is zero: ends need their contacts listed
   bool degenerate = false;  // stretches need the general contact test
+  bool edge_ends = false;   // polygon mode: the edge is an end contact
+  // Polygon mode: the lines lie in the plane of a face that both are on; those that end
+  // there are left out.
+  bool share_facet = false;
+  std::vector<CutInterval> ending{};       // polygon mode: the viewpoint is one
+  std::vector<std::uint8_t> piece_ends{};  // of each piece of the open part, so split
 
   void close(const Cut& from, const Cut& to) { closed.add(from, to); }
   Cut keep(const Cut& cut) {
@@ -228,7 +236,9 @@ bool VertexViewer::hidden(const std::array<double, 3>& centre,
       return p.positive_on(centre, half);
     };
     if (std::all_of(star_planes_.begin(), star_planes_.end(), inside)) return true;
-    if (std::all_of(star_planes_.begin(), star_planes_.end(), beyond)) return true;
+    if (!g_.polygon() && std::all_of(star_planes_.begin(), star_planes_.end(), beyond)) {
+      return true;  // in polygon mode: ends there
+    }
   }
   for (std::size_t i = 0; i < recent_.size(); ++i) {
     if (shadows_[recent_[i]].hides(centre, half)) {
@@ -352,7 +362,8 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   if (r.points[0] == point_ || r.points[1] == point_) return;
   const Sign a = r.a(at_);
   const Sign b = r.b(at_);
-  if (a == b && a != Sign::Zero) return;
+  const EdgeContact contact = r.contact(a, b);
+  if (contact == EdgeContact::None) return;
   const Point& e0 = scene_.point(r.points[0]);
   const Point& e1 = scene_.point(r.points[1]);
   if (star_->in_plane_only) {
@@ -360,7 +371,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
         std::any_of(star_->planes.begin(), star_->planes.end(), [&](int f) {
           return g_.face_plane(f)(e0) == Sign::Zero && g_.face_plane(f)(e1) == Sign::Zero;
         });
-    if (!in_plane) return;
+    if (!in_plane && !g_.polygon()) return;
   } else {
     std::array<double, 3> low, high, c, h;
     const auto c0 = relative(e0, at_);
@@ -395,6 +406,12 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   }
   pair.mild = a == Sign::Zero || b == Sign::Zero;
   pair.degenerate = r.touched || star_->in_plane_only;
+  pair.edge_ends = contact == EdgeContact::End;
+  pair.share_facet = g_.polygon() && std::any_of(pair.edge_facets.begin(),
+                                                 pair.edge_facets.end(), [&](int facet) {
+                                                   return contains(star_->facets, facet);
+                                                 });
+  if (pair.share_facet && pair.edge_ends) return;
   if (star_->convex) add_unsupported_convex(pair);
   if (pair.closed.covers_all()) return;
 
@@ -433,28 +450,65 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   }
   pair.degenerate = pair.degenerate || (pair.mild && touching_across(pair));
   if (pair.degenerate) {
-    add_degenerate_pair(g_, *star_, r, pair.plane, pair.closed, pair.faces, out);
+    add_degenerate_pair(g_, *star_, r, pair.plane, pair.closed, pair.ending, pair.faces,
+                        out);
     return;
   }
+  if (!pair.ending.empty()) split_at_ends(pair, open);
   const bool mild = pair.mild || !ends_are_simple(pair, open);
   const bool self = own_objects_ == r.objects && own_objects_.size() == 1;
-  for (const CutInterval& i : open) {
+  for (std::size_t k = 0; k < open.size(); ++k) {
+    const CutInterval& i = open[k];
     SkeletonArc arc;
     arc.vertex = point_;
     arc.edge = r.edge;
     arc.self = self;
+    arc.ends = {!pair.piece_ends.empty() && pair.piece_ends[k] != 0, pair.edge_ends};
     arc.range = {rounded_parameter(scene_, {pair.e0, pair.e1}, i.from),
                  rounded_parameter(scene_, {pair.e0, pair.e1}, i.to)};
-    if (mild) {
-      arc.nodes = {contact_node(g_, *star_, r, pair.faces, i.from, out),
-                   contact_node(g_, *star_, r, pair.faces, i.to, out)};
-    } else {
-      arc.nodes = {end_node(pair, i.from, out), end_node(pair, i.to, out)};
-    }
+    const auto node = [&](const Cut& cut) {
+      return mild ? contact_node(g_, *star_, r, pair.faces, cut, arc.ends, out)
+                  : end_node(pair, cut, arc.ends, out);
+    };
+    if (pair.share_facet && arc.ends[0]) continue;
+    // Where the kind of contact changes, one line ends two arcs.
+    const bool goes_on = k > 0 && !pair.share_facet && !pair.piece_ends.empty() &&
+                         compare(scene_, {e0, e1}, open[k - 1].to, i.from) == Sign::Zero;
+    const std::uint32_t first = goes_on ? out.arcs.back().nodes[1] : node(i.from);
+    arc.nodes = {first, node(i.to)};
     out.arcs.push_back(arc);
     out.intervals.push_back(i);
     out.special_arcs.push_back(mild);
   }
+}
+
+// Polygon mode: cuts the open parts where the viewpoint turns from a graze into an end
+// contact.
+void VertexViewer::split_at_ends(Pair& pair, std::vector<CutInterval>& open) const {
+  const LineThrough line{pair.e0, pair.e1};
+  const auto before = [&](const Cut& x, const Cut& y) {
+    return compare(scene_, line, x, y) == Sign::Negative;
+  };
+  std::vector<CutInterval> pieces;
+  for (const CutInterval& i : open) {
+    Cut at = i.from;
+    for (const CutInterval& e : pair.ending) {  // in order, apart
+      const Cut& from = before(at, e.from) ? e.from : at;
+      const Cut& to = before(e.to, i.to) ? e.to : i.to;
+      if (!before(from, to)) continue;
+      if (before(at, from)) {
+        pieces.push_back({at, from});
+        pair.piece_ends.push_back(0);
+      }
+      pieces.push_back({from, to});
+      pair.piece_ends.push_back(1);
+      at = to;
+    }
+    if (!before(at, i.to)) continue;
+    pieces.push_back({at, i.to});
+    pair.piece_ends.push_back(0);
+  }
+  open = std::move(pieces);
 }
 
 // The face's trace in the plane of viewpoint and edge is a segment; what it hides is the
@@ -740,7 +794,12 @@ void VertexViewer::add_unsupported_convex(Pair& pair) {
         from = cut;
       }
     }
-    if (!empty) pair.close(from, to);
+    if (empty) continue;
+    if (inside == Sign::Positive && g_.polygon()) {
+      pair.ending.push_back({from, to});  // seen from outside: the line ends here
+    } else {
+      pair.close(from, to);
+    }
   }
 }
 
@@ -812,7 +871,18 @@ void VertexViewer::add_unsupported_general(Pair& pair) {
               return a == k || (turn[a * n + k] > 0 && turn[k * n + b] > 0);
             });
       }
-      if (!gap) pair.close(from, to);
+      if (!gap && !g_.polygon()) pair.close(from, to);
+      // Lines from inside the solid are blocked where they leave it.
+      if (!gap && g_.polygon()) {
+        const bool goes_on =
+            !pair.ending.empty() &&
+            compare(scene_, line, pair.ending.back().to, from) == Sign::Zero;
+        if (goes_on) {
+          pair.ending.back().to = to;
+        } else {
+          pair.ending.push_back({from, to});
+        }
+      }
     }
     from = to;
   }
@@ -838,6 +908,7 @@ bool VertexViewer::ends_are_simple(const Pair& pair,
 }
 
 std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
+                                     const std::array<bool, 2>& ends,
                                      VertexView& out) const {
   const Generator vertex{GeneratorKind::Vertex, point_};
   const Generator edge{GeneratorKind::Edge, pair.r->edge};
@@ -856,9 +927,11 @@ std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
     const Generator generators[] = {vertex, {GeneratorKind::Vertex, far}};
     const bool degenerate =
         there == StarContact::Degenerate || here == StarContact::Degenerate;
+    const std::array<bool, 2> blocked{here == StarContact::Blocked,
+                                      there == StarContact::Blocked};
     return out.add_node(degenerate ? NodeKind::Degenerate : NodeKind::VV, self,
-                        there == StarContact::Blocked || here == StarContact::Blocked,
-                        generators, {at_, scene_.point(far)});
+                        blocked[0] || blocked[1], generators, {at_, scene_.point(far)},
+                        g_.polygon() ? blocked : std::array<bool, 2>{});
   }
   const Point hit = pair.e0 + cut.parameter() * (pair.e1 - pair.e0);
   switch (cut.kind) {
@@ -866,19 +939,23 @@ std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
       const int object = scene_.edges()[cut.feature].object;
       const Generator generators[] = {vertex, {GeneratorKind::Edge, cut.feature}, edge};
       const bool self = arc_self || only_on(object) || object == pair.edge->object;
-      return out.add_node(NodeKind::VEE, self, false, generators, {at_, hit});
+      return out.add_node(NodeKind::VEE, self, false, generators, {at_, hit}, ends);
     }
     case CutKind::Support: {
       const Generator generators[] = {vertex, {GeneratorKind::Face, cut.feature}, edge};
-      return out.add_node(NodeKind::FvE, arc_self, false, generators, {at_, hit});
+      // In the plane of a face at the viewpoint: grazed there.
+      return out.add_node(NodeKind::FvE, arc_self, false, generators, {at_, hit},
+                          {false, ends[1]});
     }
     case CutKind::Saddle: {
       const Generator generators[] = {vertex, edge};
-      return out.add_node(NodeKind::Saddle, arc_self, false, generators, {at_, hit});
+      return out.add_node(NodeKind::Saddle, arc_self, false, generators, {at_, hit},
+                          ends);
     }
     default: {
       const Generator generators[] = {vertex, {GeneratorKind::Face, cut.feature}, edge};
-      return out.add_node(NodeKind::Pierce, arc_self, false, generators, {at_, hit});
+      return out.add_node(NodeKind::Pierce, arc_self, false, generators, {at_, hit},
+                          ends);
     }
   }
 }
@@ -888,13 +965,14 @@ void VertexViewer::add_line_ups(VertexView& out) {
   const std::size_t n = out.arcs.size();
   for (std::size_t i = 0; i < n; ++i) {
     const SkeletonArc a = out.arcs[i];
+    if (a.ends[0]) continue;  // a contact in between grazes
     const Edge& e = scene_.edges()[a.edge];
     const Point& e0 = scene_.point(e.points[0]);
     const Point& e1 = scene_.point(e.points[1]);
     const PlaneSide plane_e({at_, e0, e1});
     for (std::size_t j = i + 1; j < n; ++j) {
       const SkeletonArc b = out.arcs[j];
-      if (b.edge == a.edge) continue;
+      if (b.edge == a.edge || b.ends[0]) continue;
       const Edge& f = scene_.edges()[b.edge];
       const Point& f0 = scene_.point(f.points[0]);
       const Point& f1 = scene_.point(f.points[1]);
@@ -918,7 +996,8 @@ void VertexViewer::add_line_ups(VertexView& out) {
       const bool self = a.self || b.self || e.object == f.object;
       const std::uint32_t node = out.add_node(
           NodeKind::EVE, self, false, generators,
-          {e0 + on_e.parameter() * (e1 - e0), f0 + on_f.parameter() * (f1 - f0)});
+          {e0 + on_e.parameter() * (e1 - e0), f0 + on_f.parameter() * (f1 - f0)},
+          {a.ends[1], b.ends[1]});
       out.special[node] = out.special_arcs[i] != 0 || out.special_arcs[j] != 0;
       out.line_ups.push_back({node, static_cast<std::uint32_t>(i), on_e});
     }

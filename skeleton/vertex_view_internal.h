@@ -24,8 +24,8 @@ struct VertexView {
   std::vector<SkeletonArc> arcs;
   std::vector<SkeletonNode> nodes;
   std::vector<Generator> pool;
-  std::vector<CutInterval> intervals;  ///< exact ranges of `arcs`, while it is built
-  std::deque<Rational> positions;      ///< of cuts that keep a pointer
+  std::vector<CutInterval> intervals;       ///< exact ranges of `arcs`, while it is built
+  std::deque<Rational> positions;           ///< of cuts that keep a pointer
   std::vector<Simplified::Arc> short_arcs;  ///< left out
   /// Of the nodes: found among zero signs, so that its contacts are listed.
   std::vector<std::uint8_t> special;
@@ -40,7 +40,8 @@ struct VertexView {
 
   std::uint32_t add_node(NodeKind kind, bool self, bool end,
                          std::span<const Generator> generators,
-                         const std::array<Point, 2>& segment);
+                         const std::array<Point, 2>& segment,
+                         const std::array<bool, 2>& ends = {});
   void sort_arcs();
   /// Leaves out the other arcs, and the nodes that only they end at.
   void keep_arcs(const std::vector<std::uint8_t>& kept);
@@ -85,9 +86,11 @@ class VertexViewer {
                                       std::span<const Sign> signs) const;
   void add_unsupported_convex(Pair& pair);
   void add_unsupported_general(Pair& pair);
+  void split_at_ends(Pair& pair, std::vector<CutInterval>& open) const;
   [[nodiscard]] bool ends_are_simple(const Pair& pair,
                                      std::span<const CutInterval> open) const;
-  std::uint32_t end_node(const Pair& pair, const Cut& cut, VertexView& out) const;
+  std::uint32_t end_node(const Pair& pair, const Cut& cut,
+                         const std::array<bool, 2>& ends, VertexView& out) const;
   void add_line_ups(VertexView& out);  // EVE
   [[nodiscard]] Cut line_up_cut(const LineThrough& edge, const PlaneSide& plane,
                                 const std::array<std::int32_t, 2>& q) const;

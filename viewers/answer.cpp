@@ -18,6 +18,8 @@ std::size_t vertex_count(const Scene& scene) {
   return stl ? scene.points().size() : scene.soup().vertices.size();
 }
 
+const char* contact_name(bool end) { return end ? "end" : "graze"; }
+
 Json edge_kind(EdgeKind kind) {
   switch (kind) {
     case EdgeKind::Convex:
@@ -203,14 +205,20 @@ Json node_counts(const Skeleton& skeleton) {
 }
 
 Json arc_counts(const Skeleton& skeleton) {
-  const auto self = [](const auto& arcs) {
-    return std::ranges::count_if(arcs, [](const auto& arc) { return arc.self; });
+  const auto counts_of = [&](bool end) {
+    const auto count = [&](const auto& arcs, bool self) {
+      return std::ranges::count_if(arcs, [&](const auto& arc) {
+        return arc.self == self && (arc.ends[0] || arc.ends[1]) == end;
+      });
+    };
+    return Json{{"EV", count(skeleton.arcs, false)},
+                {"EEE", count(skeleton.eee_arcs, false)},
+                {"EV_self", count(skeleton.arcs, true)},
+                {"EEE_self", count(skeleton.eee_arcs, true)}};
   };
-  const std::int64_t ev_self = self(skeleton.arcs), eee_self = self(skeleton.eee_arcs);
-  return {{"EV", static_cast<std::int64_t>(skeleton.arcs.size()) - ev_self},
-          {"EEE", static_cast<std::int64_t>(skeleton.eee_arcs.size()) - eee_self},
-          {"EV_self", ev_self},
-          {"EEE_self", eee_self}};
+  Json counts = counts_of(false);
+  if (skeleton.events == EventMode::Polygon) counts["end"] = counts_of(true);
+  return counts;
 }
 
 Json node_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
@@ -221,7 +229,11 @@ Json node_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
   Json generators = Json::array();
   for (const Generator& g : skeleton.generators(node)) {
     generators.push_back(generator_json(scene, g));
+    if (skeleton.events == EventMode::Polygon) generators.back()["contact"] = "graze";
   }
+  const bool told = !generators.empty();
+  if (told && node.ends[0]) generators.front()["contact"] = contact_name(true);
+  if (told && node.ends[1]) generators.back()["contact"] = contact_name(true);
   j["generators"] = std::move(generators);
   j["line"] = points_json(node.segment);
   return j;
@@ -229,18 +241,28 @@ Json node_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
 
 Json arc_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
   const SkeletonArc& arc = skeleton.arcs[id];
-  return {{"id", id},
-          {"kind", kind_name(arc)},
-          {"vertex", vertex_json(scene, arc.vertex)},
-          {"edge", edge_json(scene, arc.edge)},
-          {"range", {arc.range[0], arc.range[1]}},
-          {"nodes", {arc.nodes[0], arc.nodes[1]}}};
+  Json j{{"id", id},
+         {"kind", kind_name(arc)},
+         {"vertex", vertex_json(scene, arc.vertex)},
+         {"edge", edge_json(scene, arc.edge)},
+         {"range", {arc.range[0], arc.range[1]}},
+         {"nodes", {arc.nodes[0], arc.nodes[1]}}};
+  if (skeleton.events == EventMode::Polygon) {
+    j["vertex"]["contact"] = contact_name(arc.ends[0]);
+    j["edge"]["contact"] = contact_name(arc.ends[1]);
+  }
+  return j;
 }
 
 Json eee_arc_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
   const EeeArc& arc = skeleton.eee_arcs[id];
   Json edges = Json::array();
   for (const int e : arc.edges) edges.push_back(edge_json(scene, e));
+  if (skeleton.events == EventMode::Polygon) {
+    edges[0]["contact"] = contact_name(arc.ends[0]);
+    edges[1]["contact"] = contact_name(false);
+    edges[2]["contact"] = contact_name(arc.ends[1]);
+  }
   return {{"id", skeleton.arcs.size() + id},
           {"kind", kind_name(arc)},
           {"edges", std::move(edges)},

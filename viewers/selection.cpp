@@ -87,6 +87,7 @@ void copy_node(const Skeleton& from, const SkeletonNode& node, Skeleton& to) {
 Skeleton filtered(const Skeleton& whole, const Part& part,
                   const SkeletonRequest& request) {
   Skeleton out;
+  out.events = whole.events;
   out.complete = whole.complete;
   out.stopped_by = whole.stopped_by;
   out.vertices_done = whole.vertices_done;

@@ -58,9 +58,6 @@ Point point_of(const std::string& text) {
 }
 
 void check(const SkeletonOptions& options) {
-  if (options.events == "polygon") {
-    throw UsageError("--events polygon is not available in this version; use solid");
-  }
   for (const std::string& kind : options.kinds) {
     if (kind != "EV" && kind != "EEE" && kind != "FF") {
       throw UsageError(fmt::format(
@@ -99,6 +96,7 @@ std::vector<double> box_of(const std::string& text) {
 SkeletonRequest request_of(const SkeletonOptions& options) {
   SkeletonRequest request;
   request.precision = options.precision;
+  if (options.events == "polygon") request.events = EventMode::Polygon;
   request.threads = options.threads;
   request.budget_seconds = options.budget;
   request.region = region_box(options.region);
@@ -169,16 +167,23 @@ Json missing_json(const Skeleton& skeleton) {
 }
 
 void print_summary(const Scene& scene, const Skeleton& skeleton, const Json& answer) {
-  std::cout << fmt::format("{}: visibility skeleton, solid mode{}\n", scene.soup().source,
+  const bool polygon = skeleton.events == EventMode::Polygon;
+  std::cout << fmt::format("{}: visibility skeleton, {} mode{}\n", scene.soup().source,
+                           polygon ? "polygon" : "solid",
                            skeleton.complete ? "" : ", INCOMPLETE");
-  for (const char* what : {"arcs", "nodes"}) {
+  const auto print_counts = [](const std::string& what, const Json& counts) {
     std::cout << fmt::format("  {}:", what);
-    for (const auto& [kind, count] : answer[what].items()) {
+    for (const auto& [kind, count] : counts.items()) {
       if (count.is_number() && count != 0) {
         std::cout << fmt::format(" {} {}", kind, count.get<std::int64_t>());
       }
     }
     std::cout << "\n";
+  };
+  for (const char* what : {"arcs", "nodes"}) {
+    print_counts(what, answer[what]);
+    if (polygon)
+      print_counts(fmt::format("{} with end contacts", what), answer[what]["end"]);
   }
   const Json& p = answer["predicates"];
   std::cout << fmt::format(
@@ -368,9 +373,12 @@ Command add_skeleton_command(CLI::App& app) {
       "the exact visibility skeleton: critical line sets and extremal stabbing lines");
   add_scene_argument(*command, *options);
   command
-      ->add_option("--events", options->events,
-                   "solid: lines that graze at every contact (default solid)")
-      ->type_name("solid")
+      ->add_option(
+          "--events", options->events,
+          "solid: lines that graze at every contact (default); polygon: "
+          "the two outermost contacts may also be visible creases and corners at "
+          "which the free segment ends, counted under \"end\"")
+      ->type_name("solid|polygon")
       ->check(CLI::IsMember({"solid", "polygon"}).description(""));
   command
       ->add_option(

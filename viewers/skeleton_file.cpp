@@ -93,6 +93,8 @@ void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
   add_pieces(j, scene, lines, arc);
 }
 
+bool is_end(const Json& j) { return j.value("contact", "graze") == "end"; }
+
 Generator generator_from(const Json& j) {
   const std::string type = j.at("type").get<std::string>();
   const auto kind = type == "vertex" ? GeneratorKind::Vertex
@@ -132,6 +134,9 @@ StoredSkeleton skeleton_from(const Json& j) {
   stored.scene_file = j.at("scene").at("file").get<std::string>();
   Skeleton& skeleton = stored.skeleton;
   skeleton.complete = j.at("complete").get<bool>();
+  if (j.contains("options") && j["options"].value("events", "solid") == "polygon") {
+    skeleton.events = EventMode::Polygon;
+  }
   for (const Json& n : j.at("list").at("nodes")) {
     SkeletonNode node{};
     const std::string name = n.at("kind").get<std::string>();
@@ -144,6 +149,9 @@ StoredSkeleton skeleton_from(const Json& j) {
       skeleton.generator_pool.push_back(generator_from(g));
     }
     node.generator_count = static_cast<std::uint32_t>(n.at("generators").size());
+    if (!n["generators"].empty()) {
+      node.ends = {is_end(n["generators"].front()), is_end(n["generators"].back())};
+    }
     node.segment = {point_from(n.at("line").at(0)), point_from(n.at("line").at(1))};
     skeleton.nodes.push_back(node);
   }
@@ -153,12 +161,14 @@ StoredSkeleton skeleton_from(const Json& j) {
       for (const int i : {0, 1, 2}) {
         arc.edges[i] = a.at("edges").at(i).at("id").get<std::int32_t>();
       }
+      arc.ends = {is_end(a.at("edges").at(0)), is_end(a.at("edges").at(2))};
       read_arc(a, arc);
       skeleton.eee_arcs.push_back(arc);
     } else {
       SkeletonArc arc{};
       arc.vertex = a.at("vertex").at("id").get<std::int32_t>();
       arc.edge = a.at("edge").at("id").get<std::int32_t>();
+      arc.ends = {is_end(a.at("vertex")), is_end(a.at("edge"))};
       read_arc(a, arc);
       skeleton.arcs.push_back(arc);
     }

@@ -175,6 +175,14 @@ vtkSmartPointer<vtkPolyData> edge_cells(const Scene& scene) {
 /// Blocks by name; a block may stay empty and is then left out.
 using Blocks = std::map<std::string, Cells>;
 
+/// Polygon mode: 1 where the first, the last contact is an end contact.
+void add_contacts(Cells& cells, const Skeleton& skeleton,
+                  const std::array<bool, 2>& ends) {
+  if (skeleton.events != EventMode::Polygon) return;
+  cells.value("first_ends", {ends[0] ? 1 : 0});
+  cells.value("last_ends", {ends[1] ? 1 : 0});
+}
+
 void add_arc_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton) {
   for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
     const SkeletonArc& arc = skeleton.arcs[i];
@@ -192,6 +200,7 @@ void add_arc_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton
     cells.value("range", {arc.range[0], arc.range[1]});
     cells.value("nodes",
                 {static_cast<int>(arc.nodes[0]), static_cast<int>(arc.nodes[1])});
+    add_contacts(cells, skeleton, arc.ends);
     cells.value("kind", kind);
   }
 }
@@ -218,6 +227,7 @@ void add_eee_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton
     cells.value("range", {arc.range[0], arc.range[1]});
     cells.value("nodes",
                 {static_cast<int>(arc.nodes[0]), static_cast<int>(arc.nodes[1])});
+    add_contacts(cells, skeleton, arc.ends);
     cells.value("kind", kind);
   }
 }
@@ -262,6 +272,7 @@ void add_node_blocks(Blocks& blocks, const Skeleton& skeleton) {
     cells.value("generators", generator_text(skeleton, node));
     cells.value("self", {node.self ? 1 : 0});
     cells.value("end", {node.end ? 1 : 0});
+    add_contacts(cells, skeleton, node.ends);
     if (node.kind == NodeKind::EEEE) cells.value("second", {node.second ? 1 : 0});
     cells.value("kind", kind);
   }

@@ -20,7 +20,12 @@ void print(std::ostream& out, const NodeKey& key) {
   out << " ]";
 }
 
-std::string name(const ArcKey& key) { return key.kind + (key.self ? "_self" : ""); }
+std::string name(const ArcKey& key) {
+  const bool end = std::ranges::any_of(key.generators, [](const GeneratorKey& g) {
+    return g.kind == 'v' || g.kind == 'e';
+  });
+  return key.kind + (key.self ? "_self" : "") + (end ? "_end" : "");
+}
 
 void print(std::ostream& out, const ArcKey& key) {
   out << name(key) << '[';

@@ -15,7 +15,7 @@ using Coordinates = std::array<double, 3>;
 
 /// A vertex by its point, an edge by its two ends, a face by all its corners; sorted.
 struct GeneratorKey {
-  char kind;  ///< 'V', 'E' or 'F'
+  char kind;  ///< 'V', 'E' or 'F'; 'v' or 'e' where it is an end contact
   std::vector<Coordinates> points;
   friend auto operator<=>(const GeneratorKey&, const GeneratorKey&) = default;
 };
@@ -48,7 +48,8 @@ struct CanonicalSkeleton {
   friend bool operator==(const CanonicalSkeleton&, const CanonicalSkeleton&) = default;
 
   void sort();
-  /// Number of nodes and of arcs of each kind, of arcs with "_self" where that applies.
+  /// Number of nodes and of arcs of each kind, of arcs with "_self" and "_end" where that
+  /// applies.
   [[nodiscard]] std::map<std::string, int> counts() const;
 };
 

@@ -71,22 +71,30 @@ inline CanonicalSkeleton canonical(const Scene& scene, const Skeleton& skeleton,
     return key;
   };
 
+  const auto mark = [](std::vector<GeneratorKey>& along, const std::array<bool, 2>& end) {
+    const auto lower = [](char& kind) { kind = kind == 'V' ? 'v' : 'e'; };
+    if (end[0]) lower(along.front().kind);
+    if (end[1]) lower(along.back().kind);
+  };
   std::vector<NodeKey> by_id;
   for (const SkeletonNode& node : skeleton.nodes) {
     std::vector<GeneratorKey> along_line;
     for (const Generator& g : skeleton.generators(node)) {
       along_line.push_back(generator_key(g));
     }
+    mark(along_line, node.ends);
     by_id.push_back(node_key(
         node_name(node.kind) + (node.self ? "_self" : "") + (node.end ? "_end" : ""),
         std::move(along_line)));
   }
   CanonicalSkeleton result;
   for (const SkeletonArc& arc : skeleton.arcs) {
-    ArcKey key = arc_key("EV",
-                         {generator_key({GeneratorKind::Vertex, arc.vertex}),
-                          generator_key({GeneratorKind::Edge, arc.edge})},
-                         arc.self, {by_id[arc.nodes[0]], by_id[arc.nodes[1]]});
+    std::vector<GeneratorKey> generators = {
+        generator_key({GeneratorKind::Vertex, arc.vertex}),
+        generator_key({GeneratorKind::Edge, arc.edge})};
+    mark(generators, arc.ends);
+    ArcKey key = arc_key("EV", std::move(generators), arc.self,
+                         {by_id[arc.nodes[0]], by_id[arc.nodes[1]]});
     const auto& ends = scene.edges()[arc.edge].points;
     if (coordinates(ends[1]) < coordinates(ends[0]))
       std::swap(key.nodes[0], key.nodes[1]);
@@ -97,6 +105,7 @@ inline CanonicalSkeleton canonical(const Scene& scene, const Skeleton& skeleton,
     for (const std::int32_t e : arc.edges) {
       along_line.push_back(generator_key({GeneratorKind::Edge, e}));
     }
+    mark(along_line, arc.ends);
     result.arcs.push_back(arc_key("EEE", std::move(along_line), arc.self,
                                   {by_id[arc.nodes[0]], by_id[arc.nodes[1]]}));
   }

@@ -41,6 +41,8 @@ template <class T>
 struct Contacts {
   std::array<Vec<T>, 3> points;
   Vec<T> direction;
+  std::vector<int> order{};  ///< of the points along the direction
+  std::array<Met, 2> outer{Met::Graze, Met::Graze};  ///< at the first, at the last
 };
 
 /// Indices of points in their order along a direction.
@@ -104,15 +106,21 @@ struct Eeee {
 
 class Enumeration {
  public:
-  explicit Enumeration(const PolygonSoup& soup) : s_(soup) {
+  Enumeration(const PolygonSoup& soup, bool end_contacts)
+      : s_(soup), end_contacts_(end_contacts) {
     find_sides();
-    take_vertex_nodes(naive_ev(soup));
+    take_vertex_nodes(naive_ev(soup, end_contacts));
     for (int f = 0; f < static_cast<int>(s_.faces.size()); ++f) find_fee(f);
     find_supporting_triples();
     find_eeee();
     for (const SupportingLines& lines : triples_) find_arcs(lines);
-    if (std::ranges::any_of(ends_, [](int n) { return n != 2; })) {
-      throw std::logic_error("a node is not the end of two EEE arcs");
+    for (std::size_t i = 0; i < ends_.size(); ++i) {
+      const NodeKey& node = result_.nodes[i];
+      const bool more = end_contacts && node.kind.starts_with("VEE");
+      if (more ? ends_[i] < 2 : ends_[i] != expected_ends(node)) {
+        throw std::logic_error("a node is the end of a wrong number of EEE arcs: " +
+                               node.kind);
+      }
     }
     result_.sort();
   }
@@ -128,6 +136,10 @@ class Enumeration {
   /// f are not all inside, nor all outside of both planes of the faces at e.
   [[nodiscard]] bool can_support(int e, int f) const {
     const int left = s_.edges[e].left, right = s_.edges[e].right;
+    if (end_contacts_ && side_[left][s_.edges[f].a] > 0 &&
+        side_[right][s_.edges[f].a] > 0) {
+      return true;  // a line can end there
+    }
     return crosses(f, left) || crosses(f, right) ||
            side_[left][s_.edges[f].a] != side_[right][s_.edges[f].a];
   }
@@ -141,6 +153,45 @@ class Enumeration {
     const Vector& a = s_.vertices[s_.edges[e].a];
     const Vector& b = s_.vertices[s_.edges[e].b];
     return as<T>(a) + t * as<T>(b - a);
+  }
+  /// How many arcs end at a node with these contacts.
+  [[nodiscard]] int expected_ends(const NodeKey& node) const {
+    const bool face_outside =
+        node.generators.front().kind == 'F' || node.generators.back().kind == 'F';
+    return end_contacts_ && face_outside ? 3 : 2;
+  }
+  [[nodiscard]] bool can_be_outer(Met met) const {
+    return met == Met::Graze || (met == Met::End && end_contacts_);
+  }
+  /// How the line meets the outer two of these edges, in that order along the direction,
+  /// if those in between graze and the outer ones may do what they do.
+  template <class T>
+  [[nodiscard]] std::optional<std::array<Met, 2>> outer_contacts(
+      std::span<const int> along_line, const Vec<T>& direction) const {
+    for (const int e : along_line.subspan(1, along_line.size() - 2)) {
+      if (enters(e, direction) > 0) return std::nullopt;
+    }
+    const Vec<T> back = T(Number(-1)) * direction;
+    const Met first = s_.met_at_edge<T>(along_line.front(), direction);
+    const Met last = s_.met_at_edge<T>(along_line.back(), back);
+    if (!can_be_outer(first) || !can_be_outer(last)) return std::nullopt;
+    return std::array{first, last};
+  }
+  /// Generators of edges in their order along a line.
+  [[nodiscard]] std::vector<GeneratorKey> keys(std::span<const int> along_line,
+                                               const std::array<Met, 2>& outer) const {
+    std::vector<GeneratorKey> result;
+    for (const int e : along_line) result.push_back(s_.edge_key(e));
+    result.front() = s_.edge_key(along_line.front(), outer[0]);
+    result.back() = s_.edge_key(along_line.back(), outer[1]);
+    return result;
+  }
+  static std::string name(const std::string& kind,
+                          std::span<const GeneratorKey> along_line) {
+    const auto ends = [](const GeneratorKey& g) {
+      return g.kind == 'v' || g.kind == 'e';
+    };
+    return std::ranges::any_of(along_line, ends) ? kind + "_end" : kind;
   }
   /// Negative when a line through e in that direction supports there, zero when it lies
   /// in the plane of a face at e, positive when it enters.
@@ -188,13 +239,14 @@ class Enumeration {
 
   void find_arcs(const SupportingLines& lines);
   void add_fourth_edges(const SupportingLines& lines, std::vector<Critical>& out) const;
-  void add_arc(const Triple& along_line, const Triple& edges, const Critical& first,
-               const Critical& last);
+  void add_arc(const Triple& along_line, const std::array<Met, 2>& outer,
+               const Triple& edges, const Critical& first, const Critical& last);
   /// The node at a critical line, for arcs whose contacts are in that order.
-  [[nodiscard]] int end_node(const Triple& along_line, const Triple& edges,
-                             const Critical& at) const;
+  [[nodiscard]] int end_node(const Triple& along_line, const std::array<Met, 2>& outer,
+                             const Triple& edges, const Critical& at) const;
 
   Solids s_;
+  bool end_contacts_;
   CanonicalSkeleton result_;
   std::vector<int> ends_;  // arcs that end at each of result_'s nodes, until it is sorted
   std::vector<std::vector<int>> side_;           // by face, then vertex
@@ -245,9 +297,12 @@ std::optional<Contacts<T>> Enumeration::supporting(const Triple& edges,
                                                    const T& t) const {
   std::optional<Contacts<T>> line = contacts(edges, t);
   if (!line) return std::nullopt;
-  for (const int e : edges) {
-    if (enters(e, line->direction) > 0) return std::nullopt;
-  }
+  line->order = order_along<T>(line->points, line->direction);
+  const Triple along_line = {edges[line->order[0]], edges[line->order[1]],
+                             edges[line->order[2]]};
+  const auto outer = outer_contacts<T>(along_line, line->direction);
+  if (!outer) return std::nullopt;
+  line->outer = *outer;
   return line;
 }
 
@@ -255,19 +310,22 @@ template <class T>
 std::optional<Contacts<T>> Enumeration::free_line(const Triple& edges, const T& t) const {
   std::optional<Contacts<T>> line = supporting(edges, t);
   if (!line) return std::nullopt;
-  const std::vector<int> order = order_along<T>(line->points, line->direction);
+  const Vec<T>& from = line->points[line->order.front()];
+  const Vec<T>& to = line->points[line->order.back()];
   // A line that does not enter a convex solid at a contact does not enter it at all.
-  if (!s_.is_free(line->points[order.front()], line->points[order.back()],
-                  {s_.edges[edges[0]].solid, s_.edges[edges[1]].solid,
-                   s_.edges[edges[2]].solid})) {
-    return std::nullopt;
-  }
-  return line;
+  const bool free = end_contacts_
+                        ? s_.is_free(from, to)
+                        : s_.is_free(from, to,
+                                     {s_.edges[edges[0]].solid, s_.edges[edges[1]].solid,
+                                      s_.edges[edges[2]].solid});
+  return free ? line : std::nullopt;
 }
 
 void Enumeration::take_vertex_nodes(const CanonicalSkeleton& ev) {
   for (const NodeKey& node : ev.nodes) {
-    if (node.kind == "VEE" || node.kind == "EVE") add_unique_node(node);
+    if (node.kind.starts_with("VEE") || node.kind.starts_with("EVE")) {
+      add_unique_node(node);
+    }
   }
 }
 
@@ -292,7 +350,7 @@ void Enumeration::add_fee(int f, int e, const Vector& on_e, int g, const Vector&
   const SolidFace& face = s_.faces[f];
   const Vector direction = on_g - on_e;
   const int at_e = enters(e, direction), at_g = enters(g, direction);
-  if (at_e > 0 || at_g > 0) return;
+  if (!end_contacts_ && (at_e > 0 || at_g > 0)) return;
   // The two points at which the line crosses the face's outline.
   std::vector<Vector> points = {on_e, on_g};
   const Vector across = cross(face.plane.normal, direction);
@@ -309,19 +367,27 @@ void Enumeration::add_fee(int f, int e, const Vector& on_e, int g, const Vector&
   if (points.size() != 4) return;
   if (at_e == 0 || at_g == 0) throw NotGeneral("a line in the planes of two faces");
   const std::vector<int> order = order_along<Number>(points, direction);
-  if (!s_.is_free(points[order.front()], points[order.back()],
-                  {face.solid, s_.edges[e].solid, s_.edges[g].solid})) {
-    return;
+  if (!s_.is_free(points[order.front()], points[order.back()])) return;
+  // An edge may be an end contact where nothing lies beyond it.
+  std::array<Met, 2> met = {at_e > 0 ? Met::FromInside : Met::Graze,
+                            at_g > 0 ? Met::FromInside : Met::Graze};
+  for (const int i : {0, 1}) {
+    if (order.front() == i) met[i] = s_.met_at_edge<Number>(i == 0 ? e : g, direction);
+    if (order.back() == i) {
+      met[i] = s_.met_at_edge<Number>(i == 0 ? e : g, Number(-1) * direction);
+    }
+    if (!can_be_outer(met[i])) return;
   }
   std::vector<GeneratorKey> along_line;
   int last = -1;
   for (const int i : order) {
-    if (i < 2) along_line.push_back(s_.edge_key(i == 0 ? e : g));
+    if (i < 2) along_line.push_back(s_.edge_key(i == 0 ? e : g, met[i]));
     if (i >= 2 && last < 2) along_line.push_back(s_.face_key(f));
     last = i;
   }
   if (along_line.size() != 3) throw std::logic_error("a contact inside a face");
-  add_unique_node(node_key("FEE", std::move(along_line)));
+  const std::string kind = name("FEE", along_line);
+  add_unique_node(node_key(kind, std::move(along_line)));
 }
 
 void Enumeration::find_supporting_triples() {
@@ -453,7 +519,7 @@ void Enumeration::add_eeee(const Quadruple& edges, const CanonicalLine& line) {
   bool in_plane = false;
   for (const int e : edges) {
     const int sign = enters(e, direction);
-    if (sign > 0) return;
+    if (sign > 0 && !end_contacts_) return;
     in_plane = in_plane || sign == 0;
   }
   if (in_plane) throw NotGeneral("four edges and the plane of a face");
@@ -474,14 +540,13 @@ void Enumeration::add_eeee(const Quadruple& edges, const CanonicalLine& line) {
     points[i] = point_on(edges[i], at[i]);
   }
   const std::vector<int> order = order_along<Surd>(points, direction);
-  if (!s_.is_free(points[order.front()], points[order.back()],
-                  {s_.edges[edges[0]].solid, s_.edges[edges[1]].solid,
-                   s_.edges[edges[2]].solid, s_.edges[edges[3]].solid})) {
-    return;
-  }
-  std::vector<GeneratorKey> along_line;
-  for (const int i : order) along_line.push_back(s_.edge_key(edges[i]));
-  const int node = add_node(node_key("EEEE", std::move(along_line)));
+  Quadruple along_line;
+  for (int i = 0; i < 4; ++i) along_line[i] = edges[order[i]];
+  const auto outer = outer_contacts<Surd>(along_line, direction);
+  if (!outer || !s_.is_free(points[order.front()], points[order.back()])) return;
+  std::vector<GeneratorKey> generators = keys(along_line, *outer);
+  const std::string kind = name("EEEE", generators);
+  const int node = add_node(node_key(kind, std::move(generators)));
   eeee_[edges].push_back({node, edges, std::move(at)});
 }
 
@@ -493,6 +558,12 @@ void Enumeration::find_arcs(const SupportingLines& lines) {
   // Maximal runs [first, last] of critical lines between which every line is in.
   std::size_t first = 0;
   std::vector<int> order;  // of the contacts, in the current run; empty: none
+  std::array<Met, 2> outer{};
+  const auto add_run = [&](std::size_t last) {
+    add_arc({edges[order[0]], edges[order[1]], edges[order[2]]}, outer, edges,
+            critical[first], critical[last]);
+    order.clear();
+  };
   for (std::size_t i = 0; i + 1 < critical.size(); ++i) {
     const Number t = between(critical[i].t, critical[i + 1].t);
     const std::optional<Contacts<Number>> line = free_line(edges, t);
@@ -500,25 +571,24 @@ void Enumeration::find_arcs(const SupportingLines& lines) {
     if (line && !order.empty() && !free_line(edges, critical[i].t)) {
       throw std::logic_error("a component is not closed");
     }
-    if (!order.empty() && !line) {
-      add_arc({edges[order[0]], edges[order[1]], edges[order[2]]}, edges, critical[first],
-              critical[i]);
-      order.clear();
-    }
+    if (!order.empty() && !line) add_run(i);
     if (!line) continue;
-    const std::vector<int> here = order_along<Number>(line->points, line->direction);
-    if (order.empty()) {
-      first = i;
-      order = here;
+    std::vector<int> here = line->order;
+    std::array<Met, 2> outer_here = line->outer;
+    if (!order.empty() && here.front() != order.front()) {
+      std::ranges::reverse(here);
+      std::swap(outer_here[0], outer_here[1]);
     }
-    const std::vector<int> reversed(here.rbegin(), here.rend());
-    if (order != here && order != reversed) {
+    if (!order.empty() && order != here) {
       throw std::logic_error("contacts change places along an arc");
     }
+    if (!order.empty() && outer != outer_here) add_run(i);
+    if (!order.empty()) continue;
+    first = i;
+    order = here;
+    outer = outer_here;
   }
-  if (order.empty()) return;
-  add_arc({edges[order[0]], edges[order[1]], edges[order[2]]}, edges, critical[first],
-          critical.back());
+  if (!order.empty()) add_run(critical.size() - 1);
 }
 
 void Enumeration::add_fourth_edges(const SupportingLines& lines,
@@ -581,21 +651,21 @@ void Enumeration::add_fourth_edges(const SupportingLines& lines,
   }
 }
 
-void Enumeration::add_arc(const Triple& along_line, const Triple& edges,
-                          const Critical& first, const Critical& last) {
-  std::vector<GeneratorKey> generators;
-  for (const int e : along_line) generators.push_back(s_.edge_key(e));
+void Enumeration::add_arc(const Triple& along_line, const std::array<Met, 2>& outer,
+                          const Triple& edges, const Critical& first,
+                          const Critical& last) {
+  std::vector<GeneratorKey> generators = keys(along_line, outer);
   std::array<NodeKey, 2> nodes;
   for (int i = 0; i < 2; ++i) {
-    const int node = end_node(along_line, edges, i == 0 ? first : last);
+    const int node = end_node(along_line, outer, edges, i == 0 ? first : last);
     ++ends_[node];
     nodes[i] = result_.nodes[node];
   }
   result_.arcs.push_back(arc_key("EEE", std::move(generators), false, std::move(nodes)));
 }
 
-int Enumeration::end_node(const Triple& along_line, const Triple& edges,
-                          const Critical& at) const {
+int Enumeration::end_node(const Triple& along_line, const std::array<Met, 2>& outer,
+                          const Triple& edges, const Critical& at) const {
   if (at.cause == 'E') {
     Quadruple key = {edges[0], edges[1], edges[2], at.id};
     std::ranges::sort(key);
@@ -608,24 +678,25 @@ int Enumeration::end_node(const Triple& along_line, const Triple& edges,
     throw std::logic_error("an arc ends at no EEEE");
   }
   const int changed = edges[at.place];
-  std::vector<GeneratorKey> generators;
-  for (const int e : along_line) {
-    if (e != changed) {
-      generators.push_back(s_.edge_key(e));
-    } else {
-      generators.push_back(at.cause == 'V' ? s_.vertex_key(at.id) : s_.face_key(at.id));
-    }
-  }
   const std::string kind = at.cause == 'F'            ? "FEE"
                            : changed == along_line[1] ? "EVE"
                                                       : "VEE";
-  const auto found = node_of_.find(node_key(kind, std::move(generators)));
-  if (found == node_of_.end()) throw std::logic_error("an arc ends at no " + kind);
-  return found->second;
+  // A vertex may be an end contact where its edge is none, or the other way round.
+  for (const Met met : {Met::Graze, Met::End}) {
+    std::vector<GeneratorKey> generators = keys(along_line, outer);
+    generators[std::ranges::find(along_line, changed) - along_line.begin()] =
+        at.cause == 'V' ? s_.vertex_key(at.id, met) : s_.face_key(at.id);
+    const std::string full_name = name(kind, generators);
+    const auto found = node_of_.find(node_key(full_name, std::move(generators)));
+    if (found != node_of_.end()) return found->second;
+  }
+  throw std::logic_error("an arc ends at no " + kind);
 }
 
 }  // namespace
 
-CanonicalSkeleton naive_eee(const PolygonSoup& soup) { return Enumeration(soup).take(); }
+CanonicalSkeleton naive_eee(const PolygonSoup& soup, bool end_contacts) {
+  return Enumeration(soup, end_contacts).take();
+}
 
 }  // namespace sightline::testing

@@ -20,7 +20,8 @@ struct FoundNode {
 
 class Enumeration {
  public:
-  explicit Enumeration(const PolygonSoup& soup) : s_(soup) {
+  Enumeration(const PolygonSoup& soup, bool end_contacts)
+      : s_(soup), end_contacts_(end_contacts) {
     const int n = static_cast<int>(s_.vertices.size());
     for (int v = 0; v < n; ++v) {
       find_planes(v);
@@ -32,7 +33,7 @@ class Enumeration {
       find_planes(v);
       for (int e = 0; e < static_cast<int>(s_.edges.size()); ++e) find_arcs(v, e);
     }
-    check_identity();
+    if (!end_contacts_) check_identity();
     result_.sort();
   }
   CanonicalSkeleton take() { return std::move(result_); }
@@ -63,7 +64,16 @@ class Enumeration {
     return side_[e][s_.edges[other].a] * side_[e][s_.edges[other].b] < 0;
   }
 
+  /// Such a contact can be an outermost one.
+  [[nodiscard]] bool can_be_outer(Met met) const {
+    return met == Met::Graze || (met == Met::End && end_contacts_);
+  }
+  static std::string name(const std::string& kind, Met first, Met last) {
+    return first == Met::End || last == Met::End ? kind + "_end" : kind;
+  }
+
   Solids s_;
+  bool end_contacts_;
   CanonicalSkeleton result_;
   std::vector<std::optional<Plane>> plane_;  // of the current vertex, by edge
   std::vector<std::vector<int>> side_;       // by edge, then vertex
@@ -95,9 +105,11 @@ void Enumeration::find_vv(int v) {
     if (s_.solid_of_vertex[v] == s_.solid_of_vertex[w]) continue;
     const Vector& p = s_.vertices[v];
     const Vector& q = s_.vertices[w];
-    if (!s_.supports_at_vertex(v, q - p) || !s_.supports_at_vertex(w, q - p)) continue;
+    const Met at_v = s_.met_at_vertex(v, q - p), at_w = s_.met_at_vertex(w, p - q);
+    if (!can_be_outer(at_v) || !can_be_outer(at_w)) continue;
     if (!s_.is_free(p, q)) continue;
-    NodeKey key = node_key("VV", {s_.vertex_key(v), s_.vertex_key(w)});
+    NodeKey key = node_key(name("VV", at_v, at_w),
+                           {s_.vertex_key(v, at_v), s_.vertex_key(w, at_w)});
     vv_[{v, w}] = key;
     result_.nodes.push_back(std::move(key));
   }
@@ -121,24 +133,29 @@ void Enumeration::find_vertex_edge_edge(int v) {
       const Vector x = point_on(e, on_e);
       const Vector y = point_on(f, on_f);
       const Vector direction = y - p;
-      if (!s_.supports_at_vertex(v, direction) || !s_.supports_at_edge(e, direction) ||
-          !s_.supports_at_edge(f, direction)) {
-        continue;
-      }
       // x = p + position * direction, y is at position 1.
       const Number squared = dot(direction, direction);
       const Number position = dot(x - p, direction) / squared;
       if (sign_of(position) < 0) {
-        if (!s_.is_free(x, y)) continue;
+        const Met at_e = s_.met_at_edge<Number>(e, direction);
+        const Met at_f = s_.met_at_edge<Number>(f, p - y);
+        if (!can_be_outer(at_e) || !can_be_outer(at_f)) continue;
+        if (!s_.supports_at_vertex(v, direction) || !s_.is_free(x, y)) continue;
         result_.nodes.push_back(
-            node_key("EVE", {s_.edge_key(e), s_.vertex_key(v), s_.edge_key(f)}));
+            node_key(name("EVE", at_e, at_f),
+                     {s_.edge_key(e, at_e), s_.vertex_key(v), s_.edge_key(f, at_f)}));
         continue;
       }
       const bool e_first = position < 1;
       const int near = e_first ? e : f, far = e_first ? f : e;
+      const Met at_v = s_.met_at_vertex(v, direction);
+      const Met at_far = s_.met_at_edge<Number>(far, p - y);
+      if (!can_be_outer(at_v) || !can_be_outer(at_far)) continue;
+      if (!s_.supports_at_edge(near, direction)) continue;
       if (!s_.is_free(p, e_first ? y : x)) continue;
       NodeKey key =
-          node_key("VEE", {s_.vertex_key(v), s_.edge_key(near), s_.edge_key(far)});
+          node_key(name("VEE", at_v, at_far),
+                   {s_.vertex_key(v, at_v), s_.edge_key(near), s_.edge_key(far, at_far)});
       ends_[{v, far}].push_back({key, e_first ? on_f : on_e});
       result_.nodes.push_back(std::move(key));
     }
@@ -170,8 +187,10 @@ void Enumeration::find_fve(int f) {
       const int left_of_next = sign_of(dot(normal, cross(to_next, direction)));
       const int right_of_previous = sign_of(dot(normal, cross(direction, to_previous)));
       if (left_of_next * right_of_previous <= 0) continue;
-      if (!s_.supports_at_edge(e, direction) || !s_.is_free(p, x)) continue;
-      NodeKey key = node_key("FvE", {s_.face_key(f), s_.vertex_key(v), s_.edge_key(e)});
+      const Met at_e = s_.met_at_edge<Number>(e, p - x);
+      if (!can_be_outer(at_e) || !s_.is_free(p, x)) continue;
+      NodeKey key = node_key(name("FvE", Met::Graze, at_e),
+                             {s_.face_key(f), s_.vertex_key(v), s_.edge_key(e, at_e)});
       ends_[{v, e}].push_back({key, parameter});
       result_.nodes.push_back(std::move(key));
     }
@@ -184,7 +203,8 @@ void Enumeration::find_arcs(int v, int e) {
   const Vector& p = s_.vertices[v];
   // e lies in the planes of both its faces, so a line from v to a point of e is on the
   // same side of them wherever the point is.
-  if (!s_.supports_at_edge(e, s_.vertices[edge.a] - p)) return;
+  const Met at_edge = s_.met_at_edge<Number>(e, p - s_.vertices[edge.a]);
+  if (!can_be_outer(at_edge)) return;
 
   // Between neighbouring critical parameters nothing changes.
   std::vector<Number> critical;
@@ -204,33 +224,39 @@ void Enumeration::find_arcs(int v, int e) {
   const auto repeated = std::ranges::unique(critical);
   critical.erase(repeated.begin(), repeated.end());
 
-  const auto is_in = [&](const Number& s) {
+  // The contact at v, if the line is in.
+  const auto is_in = [&](const Number& s) -> std::optional<Met> {
     const Vector x = point_on(e, s);
-    return s_.supports_at_vertex(v, x - p) && s_.supports_at_edge(e, x - p) &&
-           s_.is_free(p, x);
+    const Met met = s_.met_at_vertex(v, x - p);
+    if (!can_be_outer(met) || !s_.is_free(p, x)) return std::nullopt;
+    return met;
   };
   std::vector<Number> bounds = {Number(0)};
   bounds.insert(bounds.end(), critical.begin(), critical.end());
   bounds.emplace_back(1);
   // Maximal runs [first, last] of bounds between which every line is in.
-  std::vector<std::pair<std::size_t, std::size_t>> runs;
-  bool was_inside = false;
+  struct Run {
+    std::size_t first, last;
+    Met at_v;
+  };
+  std::vector<Run> runs;
+  std::optional<Met> was_inside;
   for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
     const bool at_bound = i > 0 && is_in(bounds[i]);
-    const bool inside = is_in((bounds[i] + bounds[i + 1]) / 2);
+    const std::optional<Met> inside = is_in((bounds[i] + bounds[i + 1]) / 2);
     if (i > 0 && !at_bound && (inside || was_inside)) {
       throw std::logic_error("a component is not closed");
     }
     if (at_bound && !inside && !was_inside) throw NotGeneral("an isolated line");
-    if (inside && was_inside) {
-      runs.back().second = i + 1;
+    if (inside && was_inside == inside) {
+      runs.back().last = i + 1;
     } else if (inside) {
-      runs.emplace_back(i, i + 1);
+      runs.push_back({i, i + 1, *inside});
     }
     was_inside = inside;
   }
-  for (const auto& [first, last] : runs) {
-    ArcKey arc = arc_key("EV", {s_.vertex_key(v), s_.edge_key(e)}, false,
+  for (const auto& [first, last, at_v] : runs) {
+    ArcKey arc = arc_key("EV", {s_.vertex_key(v, at_v), s_.edge_key(e, at_edge)}, false,
                          {end_node(v, e, bounds[first]), end_node(v, e, bounds[last])});
     if (s_.coordinates[edge.b] < s_.coordinates[edge.a]) {
       std::swap(arc.nodes[0], arc.nodes[1]);
@@ -267,6 +293,8 @@ void Enumeration::check_identity() const {
 
 }  // namespace
 
-CanonicalSkeleton naive_ev(const PolygonSoup& soup) { return Enumeration(soup).take(); }
+CanonicalSkeleton naive_ev(const PolygonSoup& soup, bool end_contacts) {
+  return Enumeration(soup, end_contacts).take();
+}
 
 }  // namespace sightline::testing

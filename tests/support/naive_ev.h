@@ -1,6 +1,6 @@
 // The EV part of the visibility skeleton by brute force, in exact arithmetic: written
-// from the definitions of the contract ("sightline skeleton", solid mode), sharing no
-// code with the library, to test it against.
+// from the definitions of the contract ("sightline skeleton", solid and polygon mode),
+// sharing no code with the library, to test it against.
 
 #pragma once
 
@@ -26,10 +26,15 @@ class NotGeneral : public std::runtime_error {
 /// every interval between critical parameters), independently; then every end of an arc
 /// must be one of those nodes, and 2 EV = 4 VV + VEE + FvE.  std::logic_error otherwise.
 ///
+/// With `end_contacts` (polygon mode) those with end contacts as well: their generators
+/// are lower-case, their nodes "_end"; there an arc is a run of lines with the same
+/// contacts, and the equation does not hold.
+///
 /// Throws NotGeneral when a group is not such a polyhedron or when four vertices, two of
 /// them joined by an edge and not all of one solid, are coplanar.
 /// Cost: about n^2 (n k + c) for n edges of k solids, c crossings of a plane; n = 100
 /// takes about a second.
-[[nodiscard]] CanonicalSkeleton naive_ev(const PolygonSoup& soup);
+[[nodiscard]] CanonicalSkeleton naive_ev(const PolygonSoup& soup,
+                                         bool end_contacts = false);
 
 }  // namespace sightline::testing

@@ -56,10 +56,13 @@ Solids::Solids(const PolygonSoup& soup) {
   }
 }
 
-GeneratorKey Solids::vertex_key(int v) const { return {'V', {coordinates[v]}}; }
+GeneratorKey Solids::vertex_key(int v, Met met) const {
+  return {met == Met::End ? 'v' : 'V', {coordinates[v]}};
+}
 
-GeneratorKey Solids::edge_key(int e) const {
-  GeneratorKey key{'E', {coordinates[edges[e].a], coordinates[edges[e].b]}};
+GeneratorKey Solids::edge_key(int e, Met met) const {
+  GeneratorKey key{met == Met::End ? 'e' : 'E',
+                   {coordinates[edges[e].a], coordinates[edges[e].b]}};
   std::ranges::sort(key.points);
   return key;
 }
@@ -77,17 +80,6 @@ bool Solids::supports_at_vertex(int v, const Vector& direction) const {
 
 bool Solids::supports_at_edge(int e, const Vector& direction) const {
   return does_not_enter({edges[e].left, edges[e].right}, direction);
-}
-
-bool Solids::does_not_enter(const std::vector<int>& around,
-                            const Vector& direction) const {
-  bool all_in = true, all_out = true;
-  for (const int f : around) {
-    const int s = sign_of(dot(faces[f].plane.normal, direction));
-    all_in = all_in && s < 0;
-    all_out = all_out && s > 0;
-  }
-  return !all_in && !all_out;
 }
 
 }  // namespace sightline::testing

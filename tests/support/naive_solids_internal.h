@@ -56,6 +56,11 @@ struct SolidEdge {
   int solid;
 };
 
+/// How a line meets a solid in a point of its boundary, told from one of the line's two
+/// directions: it leaves the solid that way, does not enter it, or leaves it the other
+/// way.
+enum class Met { FromInside, Graze, End };
+
 /// The polyhedra, with all indices global.
 struct Solids {
   std::vector<Coordinates> coordinates;
@@ -70,8 +75,9 @@ struct Solids {
   /// no two of them coplanar.
   explicit Solids(const PolygonSoup& soup);
 
-  [[nodiscard]] GeneratorKey vertex_key(int v) const;
-  [[nodiscard]] GeneratorKey edge_key(int e) const;
+  /// With the letter of an end contact where it is one.
+  [[nodiscard]] GeneratorKey vertex_key(int v, Met met = Met::Graze) const;
+  [[nodiscard]] GeneratorKey edge_key(int e, Met met = Met::Graze) const;
   [[nodiscard]] GeneratorKey face_key(int f) const;
 
   /// The line through v in that direction does not enter v's solid near v: neither
@@ -80,6 +86,15 @@ struct Solids {
   /// The same for a line through a point inside edge e.
   [[nodiscard]] bool supports_at_edge(int e, const Vector& direction) const;
 
+  /// How a line from v, from a point inside edge e, in that direction meets the solid.
+  [[nodiscard]] Met met_at_vertex(int v, const Vector& direction) const {
+    return met<Number>(faces_of_vertex[v], direction);
+  }
+  template <class T>
+  [[nodiscard]] Met met_at_edge(int e, const Vec<T>& direction) const {
+    return met<T>({edges[e].left, edges[e].right}, direction);
+  }
+
   /// No solid's interior meets the open segment ab, those in `known` not looked at.
   template <class T>
   [[nodiscard]] bool is_free(const Vec<T>& a, const Vec<T>& b,
@@ -87,7 +102,19 @@ struct Solids {
 
  private:
   [[nodiscard]] bool does_not_enter(const std::vector<int>& around,
-                                    const Vector& direction) const;
+                                    const Vector& direction) const {
+    return met<Number>(around, direction) == Met::Graze;
+  }
+  template <class T>
+  [[nodiscard]] Met met(const std::vector<int>& around, const Vec<T>& direction) const {
+    bool all_in = true, all_out = true;
+    for (const int f : around) {
+      const int s = sign_of(dot(as<T>(faces[f].plane.normal), direction));
+      all_in = all_in && s < 0;
+      all_out = all_out && s > 0;
+    }
+    return all_in ? Met::FromInside : all_out ? Met::End : Met::Graze;
+  }
 };
 
 template <class T>

@@ -180,7 +180,7 @@ TEST_F(Cli, BadUsageIsRefusedInOneLine) {
   expect_refused({"info", "no_such_file.obj"}, "no_such_file.obj");
   expect_refused({"info", kRoom, "--threads", "-3"}, "--threads");
   expect_refused({"info", kRoom, "--precision", "float"}, "--precision");
-  expect_refused({"skeleton", kRoom, "--events", "polygon"}, "polygon");
+  expect_refused({"skeleton", kRoom, "--events", "planar"}, "planar");
   expect_refused({"skeleton", kRoom, "--kinds", "EV,VV"},
                  "'VV' is not available in this version; available: EV, EEE");
   expect_refused({"skeleton", kRoom, "--between", "crate", "nothing"}, "nothing");
