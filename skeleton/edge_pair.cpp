@@ -251,7 +251,12 @@ bool EdgePairs::gather(const Outer& outer) {
   ++pair_stamp_;
   const Shaft shaft(p0_, p1_, scene_.point(last.points[0]), scene_.point(last.points[1]));
   const bool outer_through = selection_.goes_through(i) || selection_.goes_through(j);
-  if (!outer_through && !shaft.may_meet(selection_.through_box)) return false;
+  if (!outer_through && !shaft.may_meet(selection_.through_box) &&
+      !selection_.may_reach(first_box_,
+                            box_of(std::array<Point, 2>{scene_.point(last.points[0]),
+                                                        scene_.point(last.points[1])}))) {
+    return false;
+  }
   g_.face_tree().traverse([&](const Box& box) { return shaft.may_meet(box); },
                           [&](std::uint32_t item) {
                             const int face = static_cast<int>(item);
@@ -293,10 +298,11 @@ bool EdgePairs::gather(const Outer& outer) {
           return g_.convex_solid(o) && (share(std::span(&o, 1), first.objects) ||
                                         share(std::span(&o, 1), last.objects));
         });
-    middle_allowed_[m] = !own && ridge.can_graze() && &ridge != &first &&
-                         &ridge != &last && selection_.has(m) &&
-                         (outer_through || selection_.goes_through(m)) &&
-                         !share_facet(ridge, first) && !share_facet(ridge, last);
+    middle_allowed_[m] =
+        !own && ridge.can_graze() && &ridge != &first && &ridge != &last &&
+        selection_.has(m) &&
+        (outer_through || selection_.by_lines || selection_.goes_through(m)) &&
+        !share_facet(ridge, first) && !share_facet(ridge, last);
     return middle_allowed_[m] != 0;
   });
   if (cells_.hidden_by() >= 0) remember(shadow_of(cells_.hidden_by()));

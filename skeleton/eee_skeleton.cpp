@@ -8,6 +8,7 @@
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/eee_skeleton_internal.h"
 #include "skeleton/parallel_internal.h"
+#include "skeleton/skeleton_lines.h"
 
 namespace sightline::internal {
 namespace {
@@ -109,6 +110,26 @@ class LineJoiner {
   std::map<std::pair<std::vector<Generator>, bool>, std::uint32_t> degenerate_;
 };
 
+// Without the arcs that neither have an edge on the source nor lines that end there.
+void drop_arcs_off_source(const Generators& g, const EeePart& part,
+                          const SkeletonLines& lines, std::vector<FoundArc>& arcs) {
+  const auto on_source = [&](const std::vector<int>& faces) {
+    return std::any_of(faces.begin(), faces.end(),
+                       [&](int f) { return part.source_faces[f] != 0; });
+  };
+  std::erase_if(arcs, [&](const FoundArc& found) {
+    const auto& edges = found.arc.edges;
+    if (std::any_of(edges.begin(), edges.end(),
+                    [&](int e) { return part.goes_through(g.ridge_of_edge(e)); })) {
+      return false;
+    }
+    const auto pieces = lines.ends(found.arc);
+    return std::none_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
+      return on_source(piece.faces[0]) || on_source(piece.faces[1]);
+    });
+  });
+}
+
 }  // namespace
 
 void add_eee(const Generators& generators, const SkeletonRequest& request,
@@ -123,6 +144,8 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
   }
   const Carriers carriers(generators);
   LineJoiner joiner(skeleton);
+  std::optional<SkeletonLines> lines;
+  if (part.by_lines) lines.emplace(generators.scene());
   skeleton.stopped_by = for_each_parallel(
       firsts.size(), request, start, progress, skeleton.predicates,
       [&] { return std::make_unique<EdgePairs>(generators, carriers, part); },
@@ -130,6 +153,7 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
         std::vector<FoundArc> arcs;
         pairs.visit(
             firsts[i], [&] { return must_stop(request, start); }, arcs);
+        if (lines) drop_arcs_off_source(generators, part, *lines, arcs);
         std::sort(arcs.begin(), arcs.end(), [](const FoundArc& a, const FoundArc& b) {
           return std::pair(a.arc.edges, a.arc.range) <
                  std::pair(b.arc.edges, b.arc.range);

@@ -206,6 +206,26 @@ Bits bits_below(const Bvh& tree, const Bits& items) {
 
 bool kept(const Bits& flags, std::size_t i) { return flags.empty() || flags[i] != 0; }
 
+std::vector<Point> corners_of(const Scene& scene, const Bits& faces) {
+  std::vector<Point> points;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (faces[f] == 0) continue;
+    for (const int p : scene.face_points(static_cast<int>(f))) {
+      points.push_back(scene.point(p));
+    }
+  }
+  return points;
+}
+
+Box united(const Box& a, const Box& b) {
+  Box both;
+  for (int k = 0; k < 3; ++k) {
+    both.min[k] = std::min(a.min[k], b.min[k]);
+    both.max[k] = std::max(a.max[k], b.max[k]);
+  }
+  return both;
+}
+
 void add_source(const Generators& g, const Sources& sources, EvPart& part) {
   for (std::size_t i = 0; i < g.stars().size(); ++i) {
     part.source_stars.push_back(sources.has_star(static_cast<int>(i)));
@@ -214,13 +234,7 @@ void add_source(const Generators& g, const Sources& sources, EvPart& part) {
     part.source_ridges.push_back(sources.has_ridge(static_cast<int>(i)));
   }
   part.source_faces = sources.faces();
-  std::vector<Point> points;
-  for (std::size_t f = 0; f < part.source_faces.size(); ++f) {
-    if (part.source_faces[f] == 0) continue;
-    for (const int p : g.scene().face_points(static_cast<int>(f))) {
-      points.push_back(g.scene().point(p));
-    }
-  }
+  const std::vector<Point> points = corners_of(g.scene(), part.source_faces);
   if (!points.empty()) part.source_box = box_of(points);
 }
 
@@ -369,6 +383,11 @@ EeePart eee_part(const Generators& g, const SkeletonRequest& request) {
       for (const int p : g.ridges()[i].points) points.push_back(g.scene().point(p));
     }
     part.through_below = bits_below(g.ridge_tree(), part.through);
+    part.by_lines = request.through_far_ends;
+    if (part.by_lines) {
+      part.source_faces = sources.faces();
+      points = corners_of(g.scene(), part.source_faces);
+    }
     if (points.empty()) {
       part.offers = part.wants = Bits(count, 0);
       part.below = bits_below(g.ridge_tree(), part.offers);
@@ -384,12 +403,13 @@ bool EeePart::may_pair(int i, const Box& box, std::uint32_t node,
   if (!below.empty() && (wants[i] & below[node]) == 0) return false;
   if (goes_through(i) || through_below[node] != 0) return true;
   // A middle edge meets the hull of the two boxes.
-  Box both;
-  for (int k = 0; k < 3; ++k) {
-    both.min[k] = std::min(box.min[k], node_box.min[k]);
-    both.max[k] = std::max(box.max[k], node_box.max[k]);
-  }
-  return boxes_meet(both, through_box);
+  return boxes_meet(united(box, node_box), through_box) || may_reach(box, node_box);
+}
+
+// The nearer of the two is met on the way from the farther one to the source.
+bool EeePart::may_reach(const Box& a, const Box& b) const {
+  return by_lines &&
+         (boxes_meet(united(a, through_box), b) || boxes_meet(united(b, through_box), a));
 }
 
 FacetPart facet_part(const Generators& g, const SkeletonRequest& request) {

@@ -65,7 +65,10 @@ struct EeePart {
   std::vector<std::uint8_t> kept;   ///< may be one of the three; empty: all
   /// Is or meets a source, as one of the three; empty: all.
   std::vector<std::uint8_t> through, through_below;
-  Box through_box{};  ///< of the ridges to go through
+  Box through_box{};  ///< of the ridges to go through, or of the source
+  /// Of arcs with no edge on the source, only those with lines that end there.
+  bool by_lines = false;
+  std::vector<std::uint8_t> source_faces;
 
   [[nodiscard]] bool has(int ridge) const { return kept.empty() || kept[ridge]; }
   [[nodiscard]] bool has_outer(int i, int j) const {
@@ -74,6 +77,9 @@ struct EeePart {
   [[nodiscard]] bool goes_through(int ridge) const {
     return through.empty() || through[ridge];
   }
+  /// False proves that no line through one box and the other goes on to the source, or
+  /// that this does not matter.
+  [[nodiscard]] bool may_reach(const Box& a, const Box& b) const;
   /// False proves that no pair of ridge i, whose box is given, with one below the node is
   /// asked for.
   [[nodiscard]] bool may_pair(int i, const Box& box, std::uint32_t node,

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <tuple>
 #include <unordered_map>
 
 #include "skeleton/eee_skeleton_internal.h"
@@ -27,6 +28,7 @@ class Joiner {
   explicit Joiner(Skeleton& skeleton) : out_(skeleton) {}
 
   void add(const VertexView& view) {
+    face_lines_.clear();
     std::vector<std::uint32_t> number(view.nodes.size());
     for (std::size_t i = 0; i < view.nodes.size(); ++i) {
       number[i] = add_node(view, view.nodes[i]);
@@ -44,6 +46,11 @@ class Joiner {
     const std::span<const Generator> generators(view.pool.data() + node.first_generator,
                                                 node.generator_count);
     const auto next = static_cast<std::uint32_t>(out_.nodes.size());
+    if (node.kind == NodeKind::FvE) {
+      const auto [at, fresh] = face_lines_.try_emplace(
+          {{generators.begin(), generators.end()}, node.end, node.ends}, next);
+      if (!fresh) return at->second;
+    }
     if (node.kind == NodeKind::VV || node.kind == NodeKind::Degenerate) {
       std::vector<Generator> key(generators.begin(), generators.end());
       const std::vector<Generator> reversed(key.rbegin(), key.rend());
@@ -70,6 +77,7 @@ class Joiner {
       // One direction, whichever end it was found from.
       std::iter_swap(out_.generator_pool.end() - 2, out_.generator_pool.end() - 1);
       std::swap(node.segment[0], node.segment[1]);
+      std::swap(node.ends[0], node.ends[1]);
     }
     out_.nodes.push_back(node);
     return next;
@@ -78,7 +86,11 @@ class Joiner {
   Skeleton& out_;
   std::unordered_map<std::uint64_t, std::uint32_t> pairs_, ends_;
   std::map<std::vector<Generator>, std::uint32_t> lines_;
+  // FvE lines of the view at hand: two arcs of its vertex may end at one.
+  std::map<std::tuple<std::vector<Generator>, bool, std::array<bool, 2>>, std::uint32_t>
+      face_lines_;
 };
+
 void build_ev(const Generators& generators, const SkeletonRequest& request,
               Clock::time_point start, double progress_share, Skeleton& skeleton) {
   const EvPart part = internal::ev_part(generators, request);

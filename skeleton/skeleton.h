@@ -131,9 +131,9 @@ struct SkeletonRequest : Request {
   /// Likewise of a source given by some of its faces: a corner of one, an edge of its
   /// facet.  With both, either will do.
   std::vector<int> through_faces;
-  /// Then also EV arcs some of whose lines end there, that is, whose free segment has a
-  /// face of the source at an end along some stretch: all EV arcs with lines that meet
-  /// the source.  Exact, as SkeletonLines::pieces.  EEE arcs need an edge there.
+  /// Then also arcs some of whose lines end there, that is, whose free segment has a face
+  /// of the source at an end along some stretch: all arcs with lines that meet the
+  /// source.  Exact, as SkeletonLines::ends.
   bool through_far_ends = false;
   /// Only generators inside this closed box (corner of smallest, of largest coordinates),
   /// an edge with both its ends.

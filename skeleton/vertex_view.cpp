@@ -342,9 +342,9 @@ void VertexViewer::drop_arcs_off_source(VertexView& out) {
       kept.push_back(1);
       continue;
     }
-    const auto pieces = lines_->pieces(arc);
+    const auto pieces = lines_->ends(arc);
     kept.push_back(std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
-      return on_source(piece.line.from_faces) || on_source(piece.line.to_faces);
+      return on_source(piece.faces[0]) || on_source(piece.faces[1]);
     }));
   }
   out.keep_arcs(kept);

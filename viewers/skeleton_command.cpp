@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "linespace/mesh_io.h"
+#include "linespace/perturb.h"
 #include "viewers/command_line.h"
 #include "viewers/output_file.h"
 #include "viewers/selection.h"
@@ -25,6 +26,8 @@ struct SkeletonOptions : CommonOptions {
   double budget = std::numeric_limits<double>::infinity();
   std::size_t budget_bytes = std::numeric_limits<std::size_t>::max();
   std::vector<double> region;
+  double perturb = 0;
+  std::uint64_t seed = 1;
   std::vector<double> near;
   double radius = 0;
   std::vector<std::vector<double>> between_boxes;
@@ -132,6 +135,10 @@ Json options_json(const SkeletonOptions& options) {
   if (!options.between.empty()) j["between"] = options.between;
   if (!options.through.empty()) j["through"] = options.through;
   if (!options.region.empty()) j["region"] = options.region;
+  if (options.perturb > 0) {
+    j["perturb"] = options.perturb;
+    j["seed"] = options.seed;
+  }
   if (!options.near.empty())
     j["near"] = {{"at", options.near}, {"radius", options.radius}};
   if (!options.between_boxes.empty()) j["between_boxes"] = options.between_boxes;
@@ -287,12 +294,18 @@ Skeleton saved_skeleton(const std::string& file, const Scene& scene) {
   return std::move(stored.skeleton);
 }
 
+Scene scene_of(const SkeletonOptions& options) {
+  Scene scene(read_mesh(options.scene));
+  return options.perturb > 0 ? Scene(perturbed(scene, options.perturb, options.seed))
+                             : scene;
+}
+
 ExitStatus run(const SkeletonOptions& options) {
   check(options);
   const Interruption interruption;
   const Meter meter;
   const PrecisionScope precision(options.precision);
-  const Scene scene(read_mesh(options.scene));
+  const Scene scene = scene_of(options);
   const StageCounts loading = meter.predicates();
 
   SkeletonRequest request = request_of(options);
@@ -404,6 +417,15 @@ Command add_skeleton_command(CLI::App& app) {
           "face of it")
       ->type_name("GROUP");
   add_region_option(*command, options->region);
+  command
+      ->add_option("--perturb", options->perturb,
+                   "first move every object by its own random map, no point by more than "
+                   "this, in scene units: nothing lines up across objects any more "
+                   "(default 0: the scene as it is)")
+      ->type_name("SIZE")
+      ->check(CLI::NonNegativeNumber.description(""));
+  command->add_option("--seed", options->seed, "of --perturb's random maps (default 1)")
+      ->type_name("N");
   command
       ->add_option("--near", options->near,
                    "only vertices and edges no farther than --radius from the point "

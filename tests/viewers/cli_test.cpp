@@ -196,6 +196,8 @@ TEST_F(Cli, BadUsageIsRefusedInOneLine) {
   expect_refused({"skeleton", kRoom, "--near", "1,2,3"}, "--radius");
   expect_refused({"skeleton", kRoom, "--between-boxes", "0,0,0,1,1,1", "1,2"}, "1,2");
   expect_refused({"skeleton", kRoom, "--feature-size", "-1"}, "--feature-size");
+  expect_refused({"skeleton", kRoom, "--perturb", "-1"}, "--perturb");
+  expect_refused({"skeleton", kRoom, "--perturb", "1e-30"}, "perturb");
   expect_refused({"analyse", kRoom, "--only", "shadows"}, "shadows");
   expect_refused({"view", kRoom}, "--png");
   expect_refused({"info", kRoom, "--json", (folder_ / "none/answer.json").string()},
