@@ -23,6 +23,10 @@ struct LineKey {
 
 LineKey key_of(NodeKind kind, bool second, std::span<const Generator> generators) {
   LineKey key{{-1, -1, -1, -1}, static_cast<std::uint32_t>(kind) | (second ? 256u : 0u)};
+  if (kind == NodeKind::FvE) {  // told from its vertex or from its edge
+    for (const Generator& x : generators) key.ids[static_cast<int>(x.kind)] = x.id;
+    return key;
+  }
   for (std::size_t i = 0; i < generators.size() && i < 4; ++i) {
     key.ids[i] = generators[i].id;
     if (generators[i].kind == GeneratorKind::Face) key.tag |= 1024u << i;
@@ -51,7 +55,10 @@ class LineJoiner {
         const auto generators = out_.generators(node);
         degenerate_.try_emplace({{generators.begin(), generators.end()}, node.second}, i);
       }
-      if (node.kind != NodeKind::VEE && node.kind != NodeKind::EVE) continue;
+      if (node.kind != NodeKind::VEE && node.kind != NodeKind::EVE &&
+          node.kind != NodeKind::FvE) {
+        continue;
+      }
       known_.try_emplace(key_of(node.kind, false, out_.generators(node)), i);
     }
   }

@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <tuple>
 #include <unordered_map>
 
 #include "skeleton/eee_skeleton_internal.h"
@@ -28,7 +27,6 @@ class Joiner {
   explicit Joiner(Skeleton& skeleton) : out_(skeleton) {}
 
   void add(const VertexView& view) {
-    face_lines_.clear();
     std::vector<std::uint32_t> number(view.nodes.size());
     for (std::size_t i = 0; i < view.nodes.size(); ++i) {
       number[i] = add_node(view, view.nodes[i]);
@@ -42,13 +40,30 @@ class Joiner {
   }
 
  private:
+  using FaceLine = std::array<std::int32_t, 4>;
+  struct FaceLineHash {
+    std::size_t operator()(const FaceLine& key) const {
+      std::uint64_t h = 0;
+      for (const std::int32_t x : key) {
+        h = (h ^ static_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15u;
+        h ^= h >> 29;
+      }
+      return h;
+    }
+  };
+
   std::uint32_t add_node(const VertexView& view, SkeletonNode node) {
     const std::span<const Generator> generators(view.pool.data() + node.first_generator,
                                                 node.generator_count);
     const auto next = static_cast<std::uint32_t>(out_.nodes.size());
     if (node.kind == NodeKind::FvE) {
-      const auto [at, fresh] = face_lines_.try_emplace(
-          {{generators.begin(), generators.end()}, node.end, node.ends}, next);
+      FaceLine key{};
+      for (std::size_t k = 0; k < generators.size() && k < key.size(); ++k) {
+        const int kind = static_cast<int>(generators[k].kind);
+        key[static_cast<std::size_t>(kind)] = generators[k].id;
+      }
+      key[3] = (node.end ? 1 : 0) | (node.ends[0] ? 2 : 0) | (node.ends[1] ? 4 : 0);
+      const auto [at, fresh] = face_lines_.try_emplace(key, next);
       if (!fresh) return at->second;
     }
     if (node.kind == NodeKind::VV || node.kind == NodeKind::Degenerate) {
@@ -86,9 +101,8 @@ class Joiner {
   Skeleton& out_;
   std::unordered_map<std::uint64_t, std::uint32_t> pairs_, ends_;
   std::map<std::vector<Generator>, std::uint32_t> lines_;
-  // FvE lines of the view at hand: two arcs of its vertex may end at one.
-  std::map<std::tuple<std::vector<Generator>, bool, std::array<bool, 2>>, std::uint32_t>
-      face_lines_;
+  // FvE lines by vertex, edge, facet and ends: several arcs may end at one.
+  std::unordered_map<FaceLine, std::uint32_t, FaceLineHash> face_lines_;
 };
 
 void build_ev(const Generators& generators, const SkeletonRequest& request,

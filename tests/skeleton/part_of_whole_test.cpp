@@ -107,7 +107,22 @@ struct Rule {
                        [&](int f) {
                          return has(request.vertex_objects, scene.faces()[f].object);
                        }) &&
-           on(request.edge_objects, a.edge);
+           on(request.edge_objects, a.edge) && through(a) && between(a);
+  }
+  [[nodiscard]] bool at_vertex(const std::vector<int>& objects, int vertex) const {
+    const auto faces = scene.faces_at(vertex);
+    return objects.empty() || std::any_of(faces.begin(), faces.end(), [&](int f) {
+             return has(objects, scene.faces()[f].object);
+           });
+  }
+  [[nodiscard]] bool through(const SkeletonArc& a) const {
+    return at_vertex(request.through_objects, a.vertex) ||
+           on(request.through_objects, a.edge);
+  }
+  [[nodiscard]] bool between(const SkeletonArc& a) const {
+    const auto& o = request.outer_objects;
+    return (at_vertex(o[0], a.vertex) && on(o[1], a.edge)) ||
+           (at_vertex(o[1], a.vertex) && on(o[0], a.edge));
   }
   bool operator()(const EeeArc& a) const {
     const auto& o = request.outer_objects;
