@@ -208,10 +208,11 @@ TEST_F(Cli, HelpNamesEveryOption) {
   const Run r = run({"skeleton", "--help"});
   EXPECT_EQ(r.status, 0);
   for (const char* option :
-       {"--events", "--kinds", "--between", "--through", "--region", "--near", "--radius",
-        "--between-boxes", "--feature-size", "--budget", "--budget-mb", "--list",
-        "--output", "--saved", "--seen-from", "--between-ends", "--crossed", "--json",
-        "--vtk", "--threads", "--precision"}) {
+       {"--events",       "--kinds",   "--between",       "--through",      "--region",
+        "--near",         "--radius",  "--between-boxes", "--feature-size", "--budget",
+        "--budget-mb",    "--list",    "--output",        "--saved",        "--seen-from",
+        "--between-ends", "--crossed", "--json",          "--vtk",          "--threads",
+        "--precision"}) {
     EXPECT_NE(r.out.find(option), std::string::npos) << option;
   }
   EXPECT_EQ(run({"--version"}).status, 0);
