@@ -10,7 +10,7 @@
 namespace sightline::internal {
 namespace {
 
-constexpr double kU = std::numeric_limits<double>::epsilon() / 2;
+constexpr double kU = kUnitRoundoff;
 
 [[nodiscard]] bool in_double() { return thread_precision == Precision::Double; }
 
@@ -44,12 +44,6 @@ struct Bernstein {
   h.error = 1.1 * product_error(f, g) +
             20 * kU * (std::abs(h.h0) + std::abs(h.h1) + std::abs(h.h2));
   return h;
-}
-
-[[nodiscard]] Sign certain_sign(double value, double error) {
-  if (value > error) return Sign::Positive;
-  if (value < -error) return Sign::Negative;
-  return Sign::Zero;  // not certain
 }
 
 }  // namespace

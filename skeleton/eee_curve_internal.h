@@ -23,8 +23,14 @@
 #include "linespace/rational_internal.h"
 #include "linespace/scene.h"
 #include "linespace/transversals_internal.h"
+#include "skeleton/shaft_internal.h"
 
 namespace sightline::internal {
+
+/// The sign of what `value` is off by at most `error`; Zero when it is not certain.
+[[nodiscard]] inline Sign certain_sign(double value, double error) {
+  return value > error ? Sign::Positive : value < -error ? Sign::Negative : Sign::Zero;
+}
 
 /// A line that forms are asked of, by two of its points.
 struct Carrier {

@@ -7,43 +7,12 @@
 
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/eee_skeleton_internal.h"
+#include "skeleton/line_key_internal.h"
 #include "skeleton/parallel_internal.h"
 #include "skeleton/skeleton_lines.h"
 
 namespace sightline::internal {
 namespace {
-
-// What tells a node of general position from all others: its kind, which generator is a
-// face, which of two lines, and the generators' ids.
-struct LineKey {
-  std::array<std::int32_t, 4> ids;
-  std::uint32_t tag;
-  friend bool operator==(const LineKey&, const LineKey&) = default;
-};
-
-LineKey key_of(NodeKind kind, bool second, std::span<const Generator> generators) {
-  LineKey key{{-1, -1, -1, -1}, static_cast<std::uint32_t>(kind) | (second ? 256u : 0u)};
-  if (kind == NodeKind::FvE) {  // told from its vertex or from its edge
-    for (const Generator& x : generators) key.ids[static_cast<int>(x.kind)] = x.id;
-    return key;
-  }
-  for (std::size_t i = 0; i < generators.size() && i < 4; ++i) {
-    key.ids[i] = generators[i].id;
-    if (generators[i].kind == GeneratorKind::Face) key.tag |= 1024u << i;
-  }
-  return key;
-}
-
-struct LineHash {
-  std::size_t operator()(const LineKey& k) const {
-    std::uint64_t h = k.tag;
-    for (const std::int32_t id : k.ids) {
-      h = (h ^ static_cast<std::uint32_t>(id)) * 0x9e3779b97f4a7c15u;
-      h ^= h >> 29;
-    }
-    return h;
-  }
-};
 
 // One node for each line, also for those that the EV part has found.
 class LineJoiner {
@@ -55,11 +24,12 @@ class LineJoiner {
         const auto generators = out_.generators(node);
         degenerate_.try_emplace({{generators.begin(), generators.end()}, node.second}, i);
       }
-      if (node.kind != NodeKind::VEE && node.kind != NodeKind::EVE &&
-          node.kind != NodeKind::FvE) {
-        continue;
+      const auto generators = out_.generators(node);
+      if (node.kind == NodeKind::FvE) {
+        known_.try_emplace(face_line_key(node.end, node.ends, generators), i);
+      } else if (node.kind == NodeKind::VEE || node.kind == NodeKind::EVE) {
+        known_.try_emplace(line_key(node.kind, false, generators), i);
       }
-      known_.try_emplace(key_of(node.kind, false, out_.generators(node)), i);
     }
   }
 
@@ -81,9 +51,12 @@ class LineJoiner {
             : std::span<const Generator>(found.all);
     // Both arcs that end at an EEEE are found between the same outer edges.
     auto& nodes = found.kind == NodeKind::EEEE ? local_ : known_;
+    const bool end = found.end || found.ends[0] || found.ends[1];
+    const LineKey key = found.kind == NodeKind::FvE
+                            ? face_line_key(end, found.ends, generators)
+                            : line_key(found.kind, found.rising, generators);
     const auto [at, fresh] =
-        nodes.try_emplace(key_of(found.kind, found.rising, generators),
-                          static_cast<std::uint32_t>(out_.nodes.size()));
+        nodes.try_emplace(key, static_cast<std::uint32_t>(out_.nodes.size()));
     if (fresh) append(found, generators);
     return at->second;
   }
@@ -120,20 +93,13 @@ class LineJoiner {
 // Without the arcs that neither have an edge on the source nor lines that end there.
 void drop_arcs_off_source(const Generators& g, const EeePart& part,
                           const SkeletonLines& lines, std::vector<FoundArc>& arcs) {
-  const auto on_source = [&](const std::vector<int>& faces) {
-    return std::any_of(faces.begin(), faces.end(),
-                       [&](int f) { return part.source_faces[f] != 0; });
-  };
   std::erase_if(arcs, [&](const FoundArc& found) {
     const auto& edges = found.arc.edges;
     if (std::any_of(edges.begin(), edges.end(),
                     [&](int e) { return part.goes_through(g.ridge_of_edge(e)); })) {
       return false;
     }
-    const auto pieces = lines.ends(found.arc);
-    return std::none_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
-      return on_source(piece.faces[0]) || on_source(piece.faces[1]);
-    });
+    return !any_ends_on(lines.ends(found.arc), part.source_faces);
   });
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -161,6 +162,14 @@ class Generators {
     return sign_of(value.value);
   }
   return plane(p);
+}
+
+/// Some id is in both.
+[[nodiscard]] inline bool share(std::span<const std::int32_t> a,
+                                std::span<const std::int32_t> b) {
+  return std::any_of(a.begin(), a.end(), [&](std::int32_t x) {
+    return std::find(b.begin(), b.end(), x) != b.end();
+  });
 }
 
 /// The closed boxes have a point in common.

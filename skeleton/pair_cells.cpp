@@ -6,14 +6,10 @@
 namespace sightline::internal {
 namespace {
 
-constexpr double kU = std::numeric_limits<double>::epsilon() / 2;
+constexpr double kU = kUnitRoundoff;
 // A cell is left whole after so many halvings when so few faces are left: speed only.
 constexpr int kDeepest = 12;
 std::size_t few_faces(int depth) { return depth < 6 ? 3 : depth < kDeepest ? 8 : ~0u; }
-
-Sign certain_sign(double value, double error) {
-  return value > error ? Sign::Positive : value < -error ? Sign::Negative : Sign::Zero;
-}
 
 // Certain signs at some positions; `neutral`: where the value is zero exactly, at an end
 // of an edge.

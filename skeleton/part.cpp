@@ -297,6 +297,14 @@ Simplified simplified_by(const Scene& scene, double feature_size) {
   return out;
 }
 
+bool any_ends_on(const std::vector<SkeletonLines::EndPiece>& pieces, const Bits& faces) {
+  return std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
+    return std::any_of(piece.faces.begin(), piece.faces.end(), [&](const auto& end) {
+      return std::any_of(end.begin(), end.end(), [&](int f) { return faces[f] != 0; });
+    });
+  });
+}
+
 EvPart ev_part(const Generators& g, const SkeletonRequest& request) {
   EvPart part;
   const KeptGenerators keep = kept_generators(g, request);

@@ -8,6 +8,7 @@
 
 #include "skeleton/generators_internal.h"
 #include "skeleton/skeleton.h"
+#include "skeleton/skeleton_lines.h"
 
 namespace sightline::internal {
 
@@ -22,6 +23,10 @@ struct KeptGenerators {
 
 /// The edges, corners and objects that the feature size leaves out, in order of id.
 [[nodiscard]] Simplified simplified_by(const Scene& scene, double feature_size);
+
+/// Some piece of an arc ends on one of the faces, told as bits.
+[[nodiscard]] bool any_ends_on(const std::vector<SkeletonLines::EndPiece>& pieces,
+                               const std::vector<std::uint8_t>& faces);
 
 /// Pairs of a vertex and an edge: those whose bits meet.
 struct EvPart {

@@ -8,6 +8,7 @@
 
 #include "skeleton/eee_skeleton_internal.h"
 #include "skeleton/face_pairs_internal.h"
+#include "skeleton/line_key_internal.h"
 #include "skeleton/parallel_internal.h"
 #include "skeleton/vertex_view_internal.h"
 
@@ -17,6 +18,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using internal::EvPart;
 using internal::Generators;
+using internal::LineHash;
+using internal::LineKey;
 using internal::VertexView;
 using internal::VertexViewer;
 
@@ -40,30 +43,13 @@ class Joiner {
   }
 
  private:
-  using FaceLine = std::array<std::int32_t, 4>;
-  struct FaceLineHash {
-    std::size_t operator()(const FaceLine& key) const {
-      std::uint64_t h = 0;
-      for (const std::int32_t x : key) {
-        h = (h ^ static_cast<std::uint32_t>(x)) * 0x9e3779b97f4a7c15u;
-        h ^= h >> 29;
-      }
-      return h;
-    }
-  };
-
   std::uint32_t add_node(const VertexView& view, SkeletonNode node) {
     const std::span<const Generator> generators(view.pool.data() + node.first_generator,
                                                 node.generator_count);
     const auto next = static_cast<std::uint32_t>(out_.nodes.size());
     if (node.kind == NodeKind::FvE) {
-      FaceLine key{};
-      for (std::size_t k = 0; k < generators.size() && k < key.size(); ++k) {
-        const int kind = static_cast<int>(generators[k].kind);
-        key[static_cast<std::size_t>(kind)] = generators[k].id;
-      }
-      key[3] = (node.end ? 1 : 0) | (node.ends[0] ? 2 : 0) | (node.ends[1] ? 4 : 0);
-      const auto [at, fresh] = face_lines_.try_emplace(key, next);
+      const auto [at, fresh] = face_lines_.try_emplace(
+          internal::face_line_key(node.end, node.ends, generators), next);
       if (!fresh) return at->second;
     }
     if (node.kind == NodeKind::VV || node.kind == NodeKind::Degenerate) {
@@ -101,8 +87,8 @@ class Joiner {
   Skeleton& out_;
   std::unordered_map<std::uint64_t, std::uint32_t> pairs_, ends_;
   std::map<std::vector<Generator>, std::uint32_t> lines_;
-  // FvE lines by vertex, edge, facet and ends: several arcs may end at one.
-  std::unordered_map<FaceLine, std::uint32_t, FaceLineHash> face_lines_;
+  // FvE: several arcs may end at one line.
+  std::unordered_map<LineKey, std::uint32_t, LineHash> face_lines_;
 };
 
 void build_ev(const Generators& generators, const SkeletonRequest& request,

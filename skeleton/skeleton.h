@@ -3,8 +3,8 @@
 // ends.
 //
 // Solid and polygon mode as the project's contract defines them (docs/polygon_mode.md). A
-// generator is a point id or an edge id of the scene; contacts are derived from geometry,
-// so that touching solids count as their union.
+// generator is a point, an edge or a facet id of the scene; contacts are derived from
+// geometry, so that touching solids count as their union.
 
 #pragma once
 

@@ -332,20 +332,10 @@ void VertexViewer::drop_short_arcs(VertexView& out) {
 
 // Neither generator is on the source: some line of the arc must end there.
 void VertexViewer::drop_arcs_off_source(VertexView& out) {
-  const auto on_source = [&](const std::vector<int>& faces) {
-    return std::any_of(faces.begin(), faces.end(),
-                       [&](int f) { return part_.source_faces[f] != 0; });
-  };
   std::vector<std::uint8_t> kept;
   for (const SkeletonArc& arc : out.arcs) {
-    if (part_.on_source(star_id_, g_.ridge_of_edge(arc.edge))) {
-      kept.push_back(1);
-      continue;
-    }
-    const auto pieces = lines_->ends(arc);
-    kept.push_back(std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {
-      return on_source(piece.faces[0]) || on_source(piece.faces[1]);
-    }));
+    kept.push_back(part_.on_source(star_id_, g_.ridge_of_edge(arc.edge)) ||
+                   any_ends_on(lines_->ends(arc), part_.source_faces));
   }
   out.keep_arcs(kept);
 }

@@ -108,10 +108,9 @@ Point point_from(const Json& j) {
 }
 
 NodeKind kind_from(const std::string& name) {
-  for (const NodeKind kind :
-       {NodeKind::VV, NodeKind::VEE, NodeKind::EVE, NodeKind::FvE, NodeKind::EEEE,
-        NodeKind::FEE, NodeKind::FF, NodeKind::Saddle, NodeKind::Pierce,
-        NodeKind::Degenerate}) {
+  for (const NodeKind kind : {NodeKind::VV, NodeKind::VEE, NodeKind::EVE, NodeKind::FvE,
+                              NodeKind::EEEE, NodeKind::FEE, NodeKind::FF,
+                              NodeKind::Saddle, NodeKind::Pierce, NodeKind::Degenerate}) {
     SkeletonNode node{};
     node.kind = kind;
     if (kind_name(node) == name.substr(0, name.find("_self"))) return kind;

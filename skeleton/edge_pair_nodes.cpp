@@ -1,0 +1,302 @@
+// The nodes of EdgePairs: what the line in which an arc ends is held by.
+
+#include <algorithm>
+
+#include "skeleton/edge_pair_internal.h"
+#include "skeleton/irrational_line_internal.h"
+#include "skeleton/node_contacts_internal.h"
+
+namespace sightline::internal {
+
+// Polygon mode: which outer contacts of the line at a cut are end contacts, first edge
+// first.  Where one changes from a graze into an end the line lies in the plane of a
+// face, which it grazes.
+std::array<bool, 2> EdgePairs::ends_at(const Outer& outer, const EeeCurve& curve,
+                                       const CurveCut& cut,
+                                       const Stretch& stretch) const {
+  const auto [first, last] = stretch.ends;
+  const auto at_corner = [&](int corner) {
+    return ends_at_corner(outer, curve, cut, corner, stretch.f0);
+  };
+  switch (cut.kind) {
+    case CurveCutKind::Start:
+      return {at_corner(outer.points.p[0]), last};
+    case CurveCutKind::End:
+      return {at_corner(outer.points.p[1]), last};
+    case CurveCutKind::Far:
+      return {first, at_corner(cut.feature)};
+    case CurveCutKind::OnFirst:
+      return {false, last};
+    case CurveCutKind::OnPlane: {
+      const auto& facets = g_.ridges()[outer.last].facets;
+      const bool at_last = cut.feature == facets[0] || cut.feature == facets[1];
+      return {first, last && !at_last};
+    }
+    default:
+      return {first, last};
+  }
+}
+
+// Whether the corner at a cut is an end contact: all its faces show their fronts to the
+// other outer contact.  For corners of convex solids; contacts at others are listed.
+bool EdgePairs::ends_at_corner(const Outer& outer, const EeeCurve& curve,
+                               const CurveCut& cut, int corner, Sign f0) const {
+  const Star& star = g_.stars()[g_.star_of_point(corner)];
+  if (!star.convex) return false;
+  const auto& o = outer.points;
+  return std::all_of(star.faces.begin(), star.faces.end(), [&](int face) {
+    const PlaneSide& plane = g_.face_plane(face);
+    if (cut.kind != CurveCutKind::Far) {
+      const PlaneValues q = values(plane, o.at(o.q[0]), o.at(o.q[1]));
+      if (q.sign0 == q.sign1) return q.sign0 == Sign::Positive;
+      // Times F0 - F1, which has the sign of F0.
+      const BoundedLinear l =
+          curve.at_last_edge(q.at0, q.at1, plane_points(scene_, face));
+      return (cut.kind == CurveCutKind::Start ? l.sign0 : l.sign1) * f0 == Sign::Positive;
+    }
+    const PlaneValues p = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+    if (p.sign0 == p.sign1) return p.sign0 == Sign::Positive;
+    if (p.sign0 == Sign::Zero) return p.sign1 == Sign::Positive;
+    if (p.sign1 == Sign::Zero) return p.sign0 == Sign::Positive;
+    CurveCut root{CurveCutKind::OnPlane,      false, scene_.faces()[face].facet,
+                  plane_points(scene_, face), 0,     1};
+    enclose_root({p.at0.value, p.at1.value, p.at0.error, p.at1.error, p.sign0, p.sign1},
+                 root);
+    const Sign order = curve.compare(cut, root);
+    return (order == Sign::Negative ? p.sign0 : p.sign1) == Sign::Positive &&
+           order != Sign::Zero;
+  });
+}
+
+FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int middle,
+                             const CurveCut& cut, const Stretch& stretch) {
+  const auto edge = [&](int ridge) {
+    return Generator{GeneratorKind::Edge, g_.ridges()[ridge].edge};
+  };
+  const auto vertex = [](std::int32_t p) { return Generator{GeneratorKind::Vertex, p}; };
+  const Generator first = edge(outer.first);
+  const Generator between = edge(middle);
+  const Generator last = edge(outer.last);
+  FoundNode node;
+  const auto set = [&](NodeKind kind, std::initializer_list<Generator> generators) {
+    node.kind = kind;
+    node.count = static_cast<std::uint8_t>(generators.size());
+    std::copy(generators.begin(), generators.end(), node.generators.begin());
+  };
+  switch (cut.kind) {
+    case CurveCutKind::Start:
+      set(NodeKind::VEE, {vertex(outer.points.p[0]), between, last});
+      break;
+    case CurveCutKind::End:
+      set(NodeKind::VEE, {vertex(outer.points.p[1]), between, last});
+      break;
+    case CurveCutKind::Far:
+      set(NodeKind::VEE, {vertex(cut.feature), between, first});
+      break;
+    case CurveCutKind::Middle:
+      set(NodeKind::EVE, {first, vertex(cut.feature), last});
+      break;
+    case CurveCutKind::OnFirst:
+      set(NodeKind::FEE, {{GeneratorKind::Face, cut.feature}, between, last});
+      break;
+    case CurveCutKind::OnPlane: {
+      const Generator face{GeneratorKind::Face, cut.feature};
+      const auto& at_middle = g_.ridges()[middle].facets;
+      const auto& at_last = g_.ridges()[outer.last].facets;
+      if (cut.feature == at_middle[0] || cut.feature == at_middle[1]) {
+        set(NodeKind::FEE, {first, face, last});
+      } else if (cut.feature == at_last[0] || cut.feature == at_last[1]) {
+        set(NodeKind::FEE, {first, between, face});
+      } else {
+        set(NodeKind::Pierce, {first, face, between, last});
+      }
+      break;
+    }
+    case CurveCutKind::OnFar:
+      set(NodeKind::Pierce, {first, between, {GeneratorKind::Face, cut.feature}, last});
+      break;
+    case CurveCutKind::Crossing: {
+      const int r = carriers_.ridge[cut.feature];
+      const Generator fourth =
+          r >= 0 ? edge(r)
+                 : Generator{GeneratorKind::Edge, carriers_.all[cut.feature].edge};
+      // Where two of them are coplanar only one line meets all four.
+      const auto coplanar = [&](const std::array<std::int32_t, 2>& e, int carrier) {
+        const auto& g = carriers_.all[carrier].points;
+        const auto& o = outer.points;
+        return orient3d(o.at(e[0]), o.at(e[1]), o.at(g[0]), o.at(g[1])) == Sign::Zero;
+      };
+      const bool single = coplanar(outer.points.p, curve.middle()) ||
+                          coplanar(outer.points.p, cut.feature) ||
+                          coplanar(outer.points.q, cut.feature);
+      node.rising = cut.rising && !single;
+      if (curve.order_at(cut, cut.feature, form_of(outer, cut.feature)) ==
+          Sign::Positive) {
+        set(NodeKind::EEEE, {first, fourth, between, last});
+      } else {
+        set(NodeKind::EEEE, {first, between, fourth, last});
+      }
+      break;
+    }
+  }
+  const double s = cut.parameter();
+  const double t = curve.last_parameter(s);
+  const auto& o = outer.points;
+  node.segment = {o.at(o.p[0]) + s * (o.at(o.p[1]) - o.at(o.p[0])),
+                  o.at(o.q[0]) + t * (o.at(o.q[1]) - o.at(o.q[0]))};
+  if (g_.polygon()) {
+    node.ends = ends_at(outer, curve, cut, stretch);
+    if (cut.kind == CurveCutKind::Far) std::swap(node.ends[0], node.ends[1]);
+  }
+  if (may_touch_more(outer, curve, middle, cut) ||
+      (g_.aligned() && may_touch_beyond(outer, curve, cut, node))) {
+    list_contacts(outer, curve, cut, node);
+    if (!node.all.empty()) return node;
+  }
+  // One direction for a line, whichever way it was found; VEE begins with its vertex.
+  if (node.kind != NodeKind::VEE &&
+      node.generators[node.count - 1] < node.generators[0]) {
+    std::reverse(node.generators.begin(), node.generators.begin() + node.count);
+    std::swap(node.segment[0], node.segment[1]);
+    std::swap(node.ends[0], node.ends[1]);
+  }
+  if (cut.kind == CurveCutKind::Far) std::swap(node.segment[0], node.segment[1]);
+  const auto objects = [&](const Generator& x) -> std::vector<std::int32_t> {
+    if (x.kind == GeneratorKind::Vertex) {
+      const auto at = g_.objects_at(x.id);
+      return {at.begin(), at.end()};
+    }
+    if (x.kind == GeneratorKind::Face) return {scene_.facets()[x.id].object};
+    if (x.id < 0) return {};
+    const int r = g_.ridge_of_edge(x.id);
+    if (r >= 0) return g_.ridges()[r].objects;
+    return {scene_.edges()[x.id].object};
+  };
+  for (int a = 0; a < node.count; ++a) {
+    for (int b = a + 1; b < node.count; ++b) {
+      node.self |= share(objects(node.generators[a]), objects(node.generators[b]));
+    }
+  }
+  return node;
+}
+
+// Whether the line at a cut can have a contact that its kind does not name: two cuts
+// coincide, another edge's line is not certainly missed, or a corner is not that of a
+// convex solid that stands alone.
+bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
+                               const CurveCut& cut) {
+  const auto coincides = [&](const CurveCut& other) {
+    return other.hi >= cut.lo && other.lo <= cut.hi && !other.same_as(cut) &&
+           curve.compare(other, cut) == Sign::Zero;
+  };
+  for (const Constraint& c : constraints_) {
+    if (c.values.constant() && c.values.sign0 == Sign::Zero) return true;
+    if (cut.kind == CurveCutKind::Start ? c.zero0
+        : cut.kind == CurveCutKind::End ? c.zero1
+                                        : !c.values.constant() && coincides(c.cut)) {
+      return true;
+    }
+  }
+  const std::int32_t corner =
+      cut.kind == CurveCutKind::Start ? outer.points.p[0]
+      : cut.kind == CurveCutKind::End ? outer.points.p[1]
+      : cut.kind == CurveCutKind::Far || cut.kind == CurveCutKind::Middle ? cut.feature
+                                                                          : -1;
+  if (corner >= 0) {
+    const Star& star = g_.stars()[g_.star_of_point(corner)];
+    if (!star.convex || star.touched || star.in_plane_only) return true;
+  }
+  if (cut.kind == CurveCutKind::OnFirst || cut.kind == CurveCutKind::OnPlane) {
+    if (carriers_.touched_facets[cut.feature] != 0) return true;
+    // A corner w of the face is on the line iff it is in the plane of P(s) and the last
+    // edge, or that of P(s) and the middle edge where the face is at the last one.
+    const auto& at_last = g_.ridges()[outer.last].facets;
+    const bool by_middle = cut.feature == at_last[0] || cut.feature == at_last[1];
+    const auto& m = carriers_.all[curve.middle()].points;
+    for (const int face : scene_.facets()[cut.feature].faces) {
+      for (const int w : scene_.face_points(face)) {
+        BoundedLinear l{};
+        if (by_middle) {
+          const PlaneSide plane(
+              {scene_.point(w), scene_.point(m[0]), scene_.point(m[1])});
+          const auto& o = outer.points;
+          const PlaneValues v = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+          l = {v.at0.value, v.at1.value, v.at0.error, v.at1.error, v.sign0, v.sign1};
+        } else {
+          l = beside_last(outer, w);
+        }
+        if (l.constant() && l.sign0 != Sign::Zero) continue;
+        CurveCut at{
+            by_middle ? CurveCutKind::Far : CurveCutKind::Middle, false, w, {}, 0, 1};
+        if (!l.constant()) enclose_root(l, at);
+        if (l.constant() || coincides(at)) return true;
+      }
+    }
+  }
+  const Ridge& r = g_.ridges()[middle];
+  ++node_stamp_;
+  for (const int face : faces_) {
+    if (skips(outer, r, face)) continue;
+    for (const auto& side : carriers_.of_face(face)) {
+      if (node_stamps_[side.carrier] == node_stamp_) continue;
+      node_stamps_[side.carrier] = node_stamp_;
+      if (cut.kind == CurveCutKind::Crossing && cut.feature == side.carrier) continue;
+      if (curve.misses(cut, form_of(outer, side.carrier))) continue;
+      return true;
+    }
+  }
+  return false;
+}
+
+// The same beyond the outer edges.
+bool EdgePairs::may_touch_beyond(const Outer& outer, const EeeCurve& curve,
+                                 const CurveCut& cut, const FoundNode& node) {
+  const auto& o = outer.points;
+  const auto t = curve.enclose_last(cut);
+  const auto slack = [](double low, double high, const Point& a, const Point& b) {
+    return (0.5 * (high - low) + 4 * kUnit) * (b - a).cwiseAbs().sum() +
+           8 * kUnit * (a.cwiseAbs().sum() + b.cwiseAbs().sum());
+  };
+  const Point& p0 = o.at(o.p[0]);
+  const Point& p1 = o.at(o.p[1]);
+  const Point& q0 = o.at(o.q[0]);
+  const Point& q1 = o.at(o.q[1]);
+  const double error = std::max(slack(cut.lo, cut.hi, p0, p1), slack(t[0], t[1], q0, q1));
+  return probe_.may_touch_more(p0 + cut.parameter() * (p1 - p0),
+                               q0 + 0.5 * (t[0] + t[1]) * (q1 - q0), error,
+                               {node.generators.data(), node.count});
+}
+
+void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
+                              const CurveCut& cut, FoundNode& node) const {
+  NodeContacts all;
+  std::optional<NodeContacts> between;
+  if (const auto points = curve.points_at(cut)) {
+    const auto& [a, b] = *points;
+    const LineScan scan(scene_, faces_near_line(g_, rounded(a), rounded(b)), a, b);
+    between = contacts_between(g_, scan);
+    all = contacts_along(g_, scan, *points, between->end);
+  } else if (const auto line = curve.line_at(cut)) {
+    const auto edge = [&](int ridge) { return g_.ridges()[ridge].edge; };
+    all = contacts_along(g_, *line, {edge(outer.first), edge(outer.last)});
+  }
+  if (all.generators.empty()) return;
+  if (all.kind == node.kind && g_.polygon()) {
+    const bool told = between && (!between->end || between->ends[0] || between->ends[1]);
+    if (!told) return;  // blocked in between: as the arc's
+    node.ends = between->ends;
+    if (cut.kind == CurveCutKind::Far) std::swap(node.ends[0], node.ends[1]);
+    return;
+  }
+  if (all.kind == node.kind && !all.end)
+    return;  // nothing new; no kind found is Degenerate
+  node.kind = all.kind;
+  node.self = all.self;
+  node.end = all.end;
+  if (g_.polygon() && between) node.ends = all.ends;
+  node.rising = all.second;
+  node.all = all.generators;
+  node.segment = all.segment;
+}
+
+}  // namespace sightline::internal
