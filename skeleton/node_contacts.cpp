@@ -347,20 +347,14 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
     if (scan.from(c) <= 1 && scan.to(c) >= 1) last = c;
   }
   if (first < 0 || last < 0) return {};
+  // Polygon mode: the contacts at which the line ends, and beyond which nothing is seen.
   std::array<bool, 2> stops_at{};
-  if (!g.polygon()) {
-    first = last_contact(scan, first, -1);
-    last = last_contact(scan, last, 1);
-  } else {
-    stops_at = {end && blocks_segment(scan, first), end && blocks_segment(scan, last)};
-    if (end) stops_at = blocked_ends(g, scan).value_or(stops_at);
-    if (!stops_at[0]) {
-      while (first > 0 && !scan.blocked(first - 1)) --first;
-    }
-    if (!stops_at[1]) {
-      while (last + 1 < scan.size() && !scan.blocked(last + 1)) ++last;
-    }
+  if (g.polygon() && end) {
+    stops_at = blocked_ends(g, scan).value_or(
+        std::array<bool, 2>{blocks_segment(scan, first), blocks_segment(scan, last)});
   }
+  if (!stops_at[0]) first = last_contact(scan, first, -1);
+  if (!stops_at[1]) last = last_contact(scan, last, 1);
   std::vector<std::vector<Generator>> groups;
   for (int c = first; c <= last; ++c) groups.push_back(generators_of(g, scan, c));
   NodeContacts node = node_along(g, groups);
