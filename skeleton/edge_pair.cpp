@@ -8,34 +8,42 @@
 namespace sightline::internal {
 namespace {
 
-std::array<double, 3> relative(const Point& p, const Point& origin) {
-  return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
-}
-
-constexpr std::array<double, 3> kPointHalf{0, 0, 0};
-
-// Squared ratio of a group's half diagonal to its distance above which no occluder is
-// looked for: speed only.
-constexpr double kWideView = 0.1;
-
-// From behind both planes of the wedge, from in front of both: some line touches the
-// edge.
-std::array<bool, 2> touched_on(const Ridge& r) {
-  return {r.contact(Sign::Negative, Sign::Negative) != EdgeContact::None,
-          r.contact(Sign::Positive, Sign::Positive) != EdgeContact::None};
-}
+// So many edges share a list of faces: speed only.
+constexpr int kGroup = 32;
 
 }  // namespace
 
+std::vector<EdgePairs::Group> EdgePairs::ridge_groups(const Bvh& tree) {
+  std::vector<Group> groups(tree.nodes().size());
+  std::vector<int> sizes(groups.size(), 0);
+  // Children have higher numbers than their parent.
+  for (std::size_t i = groups.size(); i-- > 0;) {
+    const Bvh::Node& node = tree.node(static_cast<std::uint32_t>(i));
+    groups[i].begins = i == 0;
+    if (node.count == 0) {
+      sizes[i] = sizes[node.first] + sizes[node.first + 1];
+      for (const std::uint32_t child : {node.first, node.first + 1}) {
+        groups[child].begins = sizes[i] > kGroup;
+        groups[i].highest = std::max(groups[i].highest, groups[child].highest);
+      }
+      continue;
+    }
+    sizes[i] = static_cast<int>(node.count);
+    for (std::uint32_t k = 0; k < node.count; ++k) {
+      groups[i].highest = std::max(
+          groups[i].highest, static_cast<std::int32_t>(tree.items()[node.first + k]));
+    }
+  }
+  return groups;
+}
 EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
                      const EeePart& part)
     : g_(generators),
       scene_(generators.scene()),
       carriers_(carriers),
       selection_(part),
-      facet_stamp_(scene_.facets().size(), 0),
-      shadow_index_(
-          scene_.objects().size() + scene_.facets().size() + scene_.faces().size(), -2),
+      view_(generators),
+      groups_(ridge_groups(generators.ridge_tree())),
       face_stamp_(scene_.faces().size(), 0),
       face_planes_(scene_.faces().size()),
       middle_stamp_(generators.ridges().size(), 0),
@@ -47,129 +55,31 @@ EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
       probe_(generators),
       node_stamps_(carriers.all.size(), 0) {}
 
-void EdgePairs::prepare(int i) {
-  first_ = i;
-  const Ridge& r = g_.ridges()[i];
-  p0_ = scene_.point(r.points[0]);
-  p1_ = scene_.point(r.points[1]);
-  middle_ = 0.5 * (p0_ + p1_);
-  first_box_ = box_of(std::array<Point, 2>{p0_, p1_});
-  for (int k = 0; k < 2; ++k) {
-    wedge_[k] = plane_seen_from(p0_, scene_.point(r.points[1 - k]),
-                                scene_.point(r.points[k]), scene_.point(r.thirds[k]));
-  }
-  touched_on_ = touched_on(r);
-  ++stamp_;
-  for (const Edge::Side& side : scene_.edges()[r.edge].sides) {
-    facet_stamp_[scene_.faces()[side.face].facet] = stamp_;
-  }
-  for (const std::int64_t key : shadow_keys_) shadow_index_[key] = -2;
-  shadow_keys_.clear();
-  shadows_.clear();
-  recent_.clear();
-}
-
-int EdgePairs::shadow_of(int face) {
-  const Face& f = scene_.faces()[face];
-  const std::int64_t key = occluder_key(g_, face);
-  std::int32_t& index = shadow_index_[key];
-  if (index != -2) return index;
-  shadow_keys_.push_back(key);
-  index = -1;
-  const bool solid = g_.convex_solid(f.object);
-  if (solid ? share(std::span(&f.object, 1), g_.ridges()[first_].objects)
-            : facet_stamp_[f.facet] == stamp_) {
-    return -1;
-  }
-  std::array<Shadow, 2> both{
-      solid ? solid_shadow(g_, f.object, p0_) : facet_shadow(g_, face, p0_),
-      solid ? solid_shadow(g_, f.object, p1_) : facet_shadow(g_, face, p1_)};
-  if (both[0].planes.empty() || both[1].planes.empty()) return -1;
-  index = static_cast<int>(shadows_.size());
-  shadows_.push_back(std::move(both));
-  return index;
-}
-
-// Every segment between the first edge and a set that one convex occluder hides from both
-// its ends passes through that occluder: in the triangle of the two ends and a point of
-// the set, the occluder is met on both sides and is convex.
-bool EdgePairs::hidden(const Box& box) {
-  const CentredBox b = centred(box);
-  const Point middle{b.centre[0], b.centre[1], b.centre[2]};
-  const auto c0 = relative(middle, p0_);
-  const auto c1 = relative(middle, p1_);
-  for (std::size_t k = 0; k < recent_.size(); ++k) {
-    const auto& s = shadows_[recent_[k]];
-    if (s[0].hides(c0, b.half) && s[1].hides(c1, b.half)) {
-      std::rotate(recent_.begin(), recent_.begin() + static_cast<std::ptrdiff_t>(k),
-                  recent_.begin() + static_cast<std::ptrdiff_t>(k) + 1);
-      return true;
-    }
-  }
-  // A group that fills much of the view is not hidden by one solid.
-  const Point away = middle - middle_;
-  const double extent =
-      b.half[0] * b.half[0] + b.half[1] * b.half[1] + b.half[2] * b.half[2];
-  if (extent > kWideView * away.squaredNorm()) return false;
-  const int face = propose_occluder(g_, middle_, middle, facet_stamp_, stamp_);
-  if (face < 0) return false;
-  const int index = shadow_of(face);
-  if (index < 0) return false;
-  if (std::find(recent_.begin(), recent_.end(), index) != recent_.end()) return false;
-  remember(index);
-  const auto& s = shadows_[index];
-  return s[0].hides(c0, b.half) && s[1].hides(c1, b.half);
-}
-
-bool EdgePairs::hides(int shadow, const Point& q0, const Point& q1) const {
-  const auto& s = shadows_[shadow];
-  return s[0].hides(relative(q0, p0_), kPointHalf) &&
-         s[0].hides(relative(q1, p0_), kPointHalf) &&
-         s[1].hides(relative(q0, p1_), kPointHalf) &&
-         s[1].hides(relative(q1, p1_), kPointHalf);
-}
-
-bool EdgePairs::hidden_edge(const Ridge& last) {
-  const Point& q0 = scene_.point(last.points[0]);
-  const Point& q1 = scene_.point(last.points[1]);
-  return std::any_of(recent_.begin(), recent_.end(),
-                     [&](int s) { return hides(s, q0, q1); });
-}
-
-// From no point of the box can a line touch the first edge: all are behind both planes
-// of its wedge or in front of both.
-bool EdgePairs::never_touched_from(const Box& box) const {
-  const CentredBox b = centred(box);
-  const auto c = relative({b.centre[0], b.centre[1], b.centre[2]}, p0_);
-  return (!touched_on_[0] && wedge_[0].negative_on(c, b.half) &&
-          wedge_[1].negative_on(c, b.half)) ||
-         (!touched_on_[1] && wedge_[0].positive_on(c, b.half) &&
-          wedge_[1].positive_on(c, b.half));
-}
-
 void EdgePairs::visit(int i, const std::function<bool()>& stop,
                       std::vector<FoundArc>& out) {
   if (!selection_.has(i)) return;
-  prepare(i);
   const Bvh& tree = g_.ridge_tree();
   if (tree.empty()) return;
+  view_.begin(i);
   std::uint32_t stack[128];
   int top = 0;
   stack[top++] = 0;
   while (top > 0) {
     const std::uint32_t at = stack[--top];
     const Bvh::Node& node = tree.node(at);
-    if (!selection_.may_pair(i, first_box_, at, node.box)) continue;
-    if (never_touched_from(node.box) || hidden(node.box)) continue;
+    if (groups_[at].highest <= i) continue;
+    if (!selection_.may_pair(i, view_.box(), at, node.box)) continue;
+    if (view_.never_touched_from(node.box) || view_.hidden(node.box)) continue;
+    if (groups_[at].begins) view_.look_at(node.box);
     if (node.count == 0) {
       stack[top++] = node.first + 1;
       stack[top++] = node.first;
       continue;
     }
+    if (stop()) return;
     for (std::uint32_t k = 0; k < node.count; ++k) {
       const int j = static_cast<int>(tree.items()[node.first + k]);
       if (j > i && selection_.has(j) && selection_.has_outer(i, j)) {
-        if (stop()) return;
         visit_pair(i, j, out);
       }
     }
@@ -217,10 +127,12 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   };
   outer.first_planes = {values(r.a, q0, q1), values(r.b, q0, q1)};
   if (never_touches(r, outer.first_planes)) return;
-  outer.last_planes = {values(s.a, p0_, p1_), values(s.b, p0_, p1_)};
+  const Point& p0 = view_.end(0);
+  const Point& p1 = view_.end(1);
+  outer.last_planes = {values(s.a, p0, p1), values(s.b, p0, p1)};
   if (never_touches(s, outer.last_planes)) return;
   if (share_facet(r, s)) return;
-  if (hidden_edge(s)) return;
+  if (view_.hidden(q0, q1)) return;
   if (!gather(outer)) return;
   visit_middles(outer, false, out);
   // Where the middle edge and the last are coplanar, s is constant: the other way round.
@@ -240,31 +152,29 @@ bool EdgePairs::gather(const Outer& outer) {
   const int j = outer.last;
   const Ridge& first = g_.ridges()[i];
   const Ridge& last = g_.ridges()[j];
-  faces_.clear();
   ++pair_stamp_;
-  const Shaft shaft(p0_, p1_, scene_.point(last.points[0]), scene_.point(last.points[1]));
+  const Point& p0 = view_.end(0);
+  const Point& p1 = view_.end(1);
+  const Point& q0 = scene_.point(last.points[0]);
+  const Point& q1 = scene_.point(last.points[1]);
+  const Shaft shaft(p0, p1, q0, q1);
   const bool outer_through = selection_.goes_through(i) || selection_.goes_through(j);
   if (!outer_through && !shaft.may_meet(selection_.through_box) &&
-      !selection_.may_reach(first_box_,
-                            box_of(std::array<Point, 2>{scene_.point(last.points[0]),
-                                                        scene_.point(last.points[1])}))) {
+      !selection_.may_reach(view_.box(), box_of(std::array<Point, 2>{q0, q1}))) {
     return false;
   }
-  g_.face_tree().traverse([&](const Box& box) { return shaft.may_meet(box); },
-                          [&](std::uint32_t item) {
-                            const int face = static_cast<int>(item);
-                            if (shaft.may_meet(g_.face_box(face))) faces_.push_back(face);
-                          });
+  view_.faces_between(shaft, faces_);
+  if (view_.hidden_by_one_of(faces_, q0, q1)) return false;
   const auto linear = [](const PlaneValues& v) {
     return PairCells::Linear{v.at0.value, v.at1.value, std::max(v.at0.error, v.at1.error),
                              v.sign0 == Sign::Zero, v.sign1 == Sign::Zero};
   };
   cells_.begin({{linear(outer.first_planes[0]), linear(outer.first_planes[1])},
-                touched_on_,
-                (p1_ - p0_).norm()},
+                touched_on(first),
+                (p1 - p0).norm()},
                {{linear(outer.last_planes[0]), linear(outer.last_planes[1])},
                 touched_on(last),
-                (scene_.point(last.points[1]) - scene_.point(last.points[0])).norm()});
+                (q1 - q0).norm()});
   for (const int face : faces_) {
     if (is_of(first, face) || is_of(last, face)) continue;
     const auto& [p, q] = planes_of(outer, face);
@@ -298,16 +208,8 @@ bool EdgePairs::gather(const Outer& outer) {
         !share_facet(ridge, first) && !share_facet(ridge, last);
     return middle_allowed_[m] != 0;
   });
-  if (cells_.hidden_by() >= 0) remember(shadow_of(cells_.hidden_by()));
+  if (cells_.hidden_by() >= 0) view_.remember(cells_.hidden_by());
   return !cells_.middles().empty();
-}
-
-void EdgePairs::remember(int shadow) {
-  constexpr std::size_t kRecent = 16;
-  if (shadow < 0) return;
-  if (std::find(recent_.begin(), recent_.end(), shadow) != recent_.end()) return;
-  if (recent_.size() >= kRecent) recent_.pop_back();
-  recent_.insert(recent_.begin(), shadow);
 }
 
 // A line that supports there does not meet the face elsewhere: of its convex solid, or in
@@ -329,7 +231,7 @@ bool EdgePairs::is_of(const Ridge& ridge, int face) const {
 bool EdgePairs::enters_only(int face) const {
   const int object = scene_.faces()[face].object;
   return scene_.objects()[object].closed &&
-         !boxes_meet(carriers_.object_boxes[object], first_box_);
+         !boxes_meet(carriers_.object_boxes[object], view_.box());
 }
 
 // The face's plane along the first and the last edge.

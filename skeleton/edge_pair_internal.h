@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "skeleton/carriers_internal.h"
+#include "skeleton/edge_view_internal.h"
 #include "skeleton/eee_curve_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/line_probe_internal.h"
@@ -61,16 +62,9 @@ class EdgePairs {
     std::array<PlaneValues, 2> first_planes, last_planes;
   };
 
-  void prepare(int i);
-  [[nodiscard]] int shadow_of(int face);
-  [[nodiscard]] bool hides(int shadow, const Point& q0, const Point& q1) const;
-  [[nodiscard]] bool never_touched_from(const Box& box) const;
-  [[nodiscard]] bool hidden(const Box& box);
-  [[nodiscard]] bool hidden_edge(const Ridge& last);
   void visit_pair(int i, int j, std::vector<FoundArc>& out);
   [[nodiscard]] bool share_facet(const Ridge& a, const Ridge& b) const;
   [[nodiscard]] bool gather(const Outer& outer);
-  void remember(int shadow);
   [[nodiscard]] bool is_of(const Ridge& ridge, int face) const;
   [[nodiscard]] bool enters_only(int face) const;
   [[nodiscard]] const std::array<PlaneValues, 2>& planes_of(const Outer& outer, int face);
@@ -120,18 +114,13 @@ class EdgePairs {
   const Carriers& carriers_;
   const EeePart& selection_;
 
-  // The first edge at hand, and occluders seen from both its ends.
-  int first_ = -1;
-  Point p0_, p1_, middle_;
-  Box first_box_;
-  std::array<BoundedPlane, 2> wedge_;  // its planes
-  std::array<bool, 2> touched_on_{};   // from behind both, from in front of both
-  std::vector<std::uint32_t> facet_stamp_;
-  std::uint32_t stamp_ = 0;
-  std::vector<std::array<Shadow, 2>> shadows_;
-  std::vector<std::int32_t> shadow_index_;  // by occluder, -2 unknown, -1 none
-  std::vector<std::int64_t> shadow_keys_;   // to reset
-  std::vector<std::int32_t> recent_;
+  EdgeView view_;               // from the first edge at hand
+  struct Group {                // by node of the ridge tree
+    std::int32_t highest = -1;  // of the ridges below
+    bool begins = false;        // those below share a list of faces
+  };
+  [[nodiscard]] static std::vector<Group> ridge_groups(const Bvh& tree);
+  std::vector<Group> groups_;
 
   // The pair at hand.
   std::vector<std::int32_t> faces_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -57,6 +58,20 @@ struct BoundedPlane {
     }
     return value < 0;
   }
+  /// Not less than the largest value over the box of all x with low <= x <= high, both
+  /// relative to the origin; zero where every term is zero exactly, so that what touches
+  /// the plane is told from what crosses it.
+  [[nodiscard]] double upper_on(const std::array<double, 3>& low,
+                                const std::array<double, 3>& high) const {
+    double value = offset + error;
+    for (int i = 0; i < 3; ++i) {
+      const double n0 = normal[i] - slack[i];
+      const double n1 = normal[i] + slack[i];
+      value +=
+          std::max((low[i] < 0 ? n0 : n1) * low[i], (high[i] < 0 ? n0 : n1) * high[i]);
+    }
+    return value;
+  }
   /// Smallest value over the box is surely positive.
   [[nodiscard]] bool positive_on(const std::array<double, 3>& c,
                                  const std::array<double, 3>& h) const {
@@ -103,36 +118,50 @@ inline BoundedPlane plane_seen_from(const Point& origin, const Point& a, const P
   return plane;
 }
 
-/// The hull of a vertex and an edge, or of two edges: all segments between the two.
+/// The hull of a vertex and an edge, of two edges, or of an edge and a box: all segments
+/// between the two.
 class Shaft {
  public:
-  Shaft(const Point& v, const Point& e0, const Point& e1)
-      : origin_(v), corners_{Point::Zero(), e0 - v, e1 - v, e1 - v} {
-    bound({v, e0, e1, e1});
-    const Point& u = corners_[1];
-    const Point& w = corners_[2];
+  Shaft(const Point& v, const Point& e0, const Point& e1) : origin_(v) {
+    const std::array<Point, 3> points{v, e0, e1};
+    const auto corners = bound(points);
+    const Point& u = corners[1];
+    const Point& w = corners[2];
     const Point n = u.cross(w);
-    add_axis(n);
-    add_axis(n.cross(u));
-    add_axis(n.cross(w));
-    add_axis(n.cross(w - u));
+    add_axis(n, corners);
+    add_axis(n.cross(u), corners);
+    add_axis(n.cross(w), corners);
+    add_axis(n.cross(w - u), corners);
   }
 
   Shaft(const Point& p0, const Point& p1, const Point& q0, const Point& q1)
-      : origin_(p0), corners_{Point::Zero(), p1 - p0, q0 - p0, q1 - p0} {
-    bound({p0, p1, q0, q1});
-    const Point& p = corners_[1];
-    const Point& q = corners_[2];
-    const Point& r = corners_[3];
-    // Across the way first: most boxes are beside a shaft.
-    const Point along = 0.5 * (q + r - p);
-    add_axis({-along[1], along[0], 0});
-    add_axis({0, -along[2], along[1]});
-    add_axis({along[2], 0, -along[0]});
-    add_axis(p.cross(q));
-    add_axis(p.cross(r));
-    add_axis(q.cross(r));
-    add_axis((q - p).cross(r - p));
+      : origin_(p0) {
+    const std::array<Point, 4> points{p0, p1, q0, q1};
+    const auto corners = bound(points);
+    const Point& p = corners[1];
+    const Point& q = corners[2];
+    const Point& r = corners[3];
+    add_axes_across(0.5 * (q + r - p), corners);
+    add_axis(p.cross(q), corners);
+    add_axis(p.cross(r), corners);
+    add_axis(q.cross(r), corners);
+    add_axis((q - p).cross(r - p), corners);
+  }
+
+  Shaft(const Point& p0, const Point& p1, const Box& box) : origin_(p0) {
+    std::array<Point, 10> points{p0, p1};
+    for (int c = 0; c < 8; ++c) {
+      for (int i = 0; i < 3; ++i) {
+        points[2 + c][i] = (c >> i & 1) != 0 ? box.max[i] : box.min[i];
+      }
+    }
+    const auto corners = bound(points);
+    const Point& p = corners[1];
+    const Point along = 0.5 * (corners[2] + corners[9] - p);
+    add_axes_across(along, corners);
+    const Point n = p.cross(along);
+    add_axis(n, corners);
+    add_axis(n.cross(along), corners);
   }
 
   /// False proves that no point of the closed box lies in the closed hull.
@@ -166,21 +195,27 @@ class Shaft {
     double min, max;
   };
 
-  void bound(const std::array<Point, 4>& points) {
-    for (int i = 0; i < 3; ++i) {
-      min_[i] = max_[i] = points[0][i];
-      for (const Point& p : points) {
-        min_[i] = std::min(min_[i], p[i]);
-        max_[i] = std::max(max_[i], p[i]);
+  /// Returns the points relative to the origin.
+  template <std::size_t N>
+  std::array<Point, N> bound(const std::array<Point, N>& points) {
+    std::array<Point, N> relative;
+    for (int i = 0; i < 3; ++i) min_[i] = max_[i] = points[0][i];
+    for (std::size_t k = 0; k < N; ++k) {
+      relative[k] = points[k] - origin_;
+      for (int i = 0; i < 3; ++i) {
+        min_[i] = std::min(min_[i], points[k][i]);
+        max_[i] = std::max(max_[i], points[k][i]);
       }
     }
+    return relative;
   }
 
-  void add_axis(const Point& m) {
+  template <std::size_t N>
+  void add_axis(const Point& m, const std::array<Point, N>& corners) {
     double low = 0;
     double high = 0;
     double largest = 0;
-    for (const Point& x : corners_) {
+    for (const Point& x : corners) {
       double at = 0;
       double size = 0;
       for (int i = 0; i < 3; ++i) {
@@ -195,25 +230,41 @@ class Shaft {
     axes_[count_++] = {m, low - error, high + error};
   }
 
+  /// Across the way, the first to try: most boxes are beside a shaft.
+  template <std::size_t N>
+  void add_axes_across(const Point& along, const std::array<Point, N>& corners) {
+    add_axis({-along[1], along[0], 0}, corners);
+    add_axis({0, -along[2], along[1]}, corners);
+    add_axis({along[2], 0, -along[0]}, corners);
+  }
+
   Point origin_;
-  std::array<Point, 4> corners_;  // relative to the origin
   std::array<double, 3> min_, max_;
-  std::array<Axis, 7> axes_;
+  std::array<Axis, 7> axes_{};
   int count_ = 0;
+};
+
+/// What an occluder is proved to do to all segments between a point and a set.
+enum class Hides : std::uint8_t {
+  No,       ///< nothing
+  Touches,  ///< each meets the closed occluder
+  Inside    ///< each passes its inside
 };
 
 /// Where a convex occluder hides everything from a point: inside all its planes.
 struct Shadow {
   std::vector<BoundedPlane> planes;  ///< relative to the viewpoint, negative inside
 
-  /// True proves that every segment from the viewpoint to a point of the box passes
-  /// through the occluder's interior.
-  [[nodiscard]] bool hides(const std::array<double, 3>& c,
-                           const std::array<double, 3>& h) const {
+  /// Of the box with these corners, relative to the viewpoint.
+  [[nodiscard]] Hides hides(const std::array<double, 3>& low,
+                            const std::array<double, 3>& high) const {
+    Hides all = planes.empty() ? Hides::No : Hides::Inside;
     for (const BoundedPlane& plane : planes) {
-      if (!plane.negative_on(c, h)) return false;
+      const double value = plane.upper_on(low, high);
+      if (value > 0) return Hides::No;
+      if (value == 0) all = Hides::Touches;
     }
-    return !planes.empty();
+    return all;
   }
 };
 

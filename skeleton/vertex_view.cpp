@@ -10,12 +10,6 @@
 namespace sightline::internal {
 namespace {
 
-constexpr std::array<double, 3> kPointHalf{0, 0, 0};
-
-// Squared ratio of a group's half diagonal to its distance above which no occluder is
-// looked for: speed only.
-constexpr double kWideView = 0.1;
-
 std::array<double, 3> relative(const Point& p, const Point& origin) {
   return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
 }
@@ -225,23 +219,34 @@ int VertexViewer::shadow_of(int face) {
   return at->second;
 }
 
-bool VertexViewer::hidden(const std::array<double, 3>& centre,
-                          const std::array<double, 3>& half) {
+std::array<std::array<double, 3>, 2> VertexViewer::seen_from_here(const Box& box) const {
+  std::array<std::array<double, 3>, 2> ends;
+  for (int i = 0; i < 3; ++i) {
+    ends[0][i] = box.min[i] - at_[i];
+    ends[1][i] = box.max[i] - at_[i];
+  }
+  return ends;
+}
+
+bool VertexViewer::hidden(const Box& box) {
   // Lines into the viewpoint's own solid, forwards or backwards, support nothing.
   if (star_->convex) {
+    const CentredBox b = centred(box);
+    const auto centre = relative({b.centre[0], b.centre[1], b.centre[2]}, at_);
     const auto inside = [&](const BoundedPlane& p) {
-      return p.negative_on(centre, half);
+      return p.negative_on(centre, b.half);
     };
     const auto beyond = [&](const BoundedPlane& p) {
-      return p.positive_on(centre, half);
+      return p.positive_on(centre, b.half);
     };
     if (std::all_of(star_planes_.begin(), star_planes_.end(), inside)) return true;
     if (!g_.polygon() && std::all_of(star_planes_.begin(), star_planes_.end(), beyond)) {
       return true;  // in polygon mode: ends there
     }
   }
+  const auto [low, high] = seen_from_here(box);
   for (std::size_t i = 0; i < recent_.size(); ++i) {
-    if (shadows_[recent_[i]].hides(centre, half)) {
+    if (shadows_[recent_[i]].hides(low, high) == Hides::Inside) {
       std::rotate(recent_.begin(), recent_.begin() + static_cast<std::ptrdiff_t>(i),
                   recent_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       return true;
@@ -250,18 +255,13 @@ bool VertexViewer::hidden(const std::array<double, 3>& centre,
   return false;
 }
 
-bool VertexViewer::hidden_behind_proposal(const Point& target,
-                                          const std::array<double, 3>& centre,
-                                          const std::array<double, 3>& half) {
-  const int face = propose_occluder(g_, at_, target, facet_stamp_, stamp_);
-  if (face < 0) return false;
-  const int index = shadow_of(face);
-  if (index < 0) return false;
-  if (std::find(recent_.begin(), recent_.end(), index) != recent_.end()) return false;
+void VertexViewer::remember(int face) {
   constexpr std::size_t kRecent = 12;
+  const int index = shadow_of(face);
+  if (index < 0) return;
+  if (std::find(recent_.begin(), recent_.end(), index) != recent_.end()) return;
   if (recent_.size() >= kRecent) recent_.pop_back();
   recent_.insert(recent_.begin(), index);
-  return shadows_[index].hides(centre, half);
 }
 
 VertexView VertexViewer::view(int star) {
@@ -292,21 +292,7 @@ void VertexViewer::visit_ridges(VertexView& out) {
     const std::uint32_t at = stack[--top];
     if (!part_.has_below(at, wanted_)) continue;
     const Bvh::Node& node = tree.node(at);
-    const CentredBox box = centred(node.box);
-    const Point middle{box.centre[0], box.centre[1], box.centre[2]};
-    std::array<double, 3> c = relative(middle, at_);
-    if (!star_->in_plane_only) {
-      if (hidden(c, box.half)) continue;
-      // A group that fills much of the view is not hidden by one solid.
-      double distance = 0, extent = 0;
-      for (int i = 0; i < 3; ++i) {
-        distance += c[i] * c[i];
-        extent += box.half[i] * box.half[i];
-      }
-      if (extent < kWideView * distance && hidden_behind_proposal(middle, c, box.half)) {
-        continue;
-      }
-    }
+    if (!star_->in_plane_only && hidden(node.box)) continue;
     if (node.count == 0) {
       stack[top++] = node.first + 1;
       stack[top++] = node.first;
@@ -363,24 +349,18 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
         });
     if (!in_plane && !g_.polygon()) return;
   } else {
-    std::array<double, 3> low, high, c, h;
+    // All of the edge but its ends is behind the inside of one occluder.
     const auto c0 = relative(e0, at_);
     const auto c1 = relative(e1, at_);
-    const auto ends_hidden = [&](const Shadow& s) {
-      return s.hides(c0, kPointHalf) && s.hides(c1, kPointHalf);
+    const auto hides = [&](const Shadow& s) {
+      const Hides first = s.hides(c0, c0);
+      if (first == Hides::No) return false;
+      const Hides last = s.hides(c1, c1);
+      return last != Hides::No && (first == Hides::Inside || last == Hides::Inside);
     };
     for (const int s : recent_) {
-      if (ends_hidden(shadows_[s])) return;
+      if (hides(shadows_[s])) return;
     }
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(c0[i], c1[i]);
-      high[i] = std::max(c0[i], c1[i]);
-      c[i] = 0.5 * (low[i] + high[i]);
-      h[i] = 0.5 * (high[i] - low[i]);
-    }
-    const Point middle = 0.5 * (e0 + e1);
-    hidden_behind_proposal(middle, c, h);
-    if (!recent_.empty() && ends_hidden(shadows_[recent_[0]])) return;
   }
   const Edge& edge = scene_.edges()[r.edge];
   const bool own_solid = std::all_of(r.objects.begin(), r.objects.end(), [&](int o) {
@@ -427,9 +407,12 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
       continue;
     }
     for (std::uint32_t i = 0; i < node.count; ++i) {
-      add_blocker(pair, static_cast<int>(tree.items()[node.first + i]));
+      const int face = static_cast<int>(tree.items()[node.first + i]);
+      add_blocker(pair, face);
+      if (!pair.closed.covers_all()) continue;
+      remember(face);
+      return;
     }
-    if (pair.closed.covers_all()) return;
   }
   auto open = pair.closed.complement();
   if (open.empty()) return;

@@ -70,10 +70,10 @@ class VertexViewer {
   struct Pair;  // one vertex and one ridge
 
   void prepare(int star);
-  [[nodiscard]] bool hidden(const std::array<double, 3>& centre,
-                            const std::array<double, 3>& half);
-  bool hidden_behind_proposal(const Point& target, const std::array<double, 3>& centre,
-                              const std::array<double, 3>& half);
+  /// Corners of a box, relative to the viewpoint.
+  [[nodiscard]] std::array<std::array<double, 3>, 2> seen_from_here(const Box& box) const;
+  [[nodiscard]] bool hidden(const Box& box);
+  void remember(int face);  // its occluder is tried first from now on
   int shadow_of(int face);  // position in shadows_, -1 if it casts none
   void visit_ridges(VertexView& out);
   void drop_short_arcs(VertexView& out);
