@@ -5,6 +5,7 @@
 
 #include "skeleton/degenerate_pair_internal.h"
 #include "skeleton/occluder_shadow_internal.h"
+#include "skeleton/opposite_edges_internal.h"
 #include "skeleton/vertex_view_internal.h"
 
 namespace sightline::internal {
@@ -935,20 +936,25 @@ std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
 
 // EVE: two arcs of this vertex in opposite directions that lie on one line.
 void VertexViewer::add_line_ups(VertexView& out) {
-  const std::size_t n = out.arcs.size();
-  for (std::size_t i = 0; i < n; ++i) {
+  std::vector<std::array<Point, 2>> edges;
+  for (const SkeletonArc& a : out.arcs) {
+    const auto& p = scene_.edges()[a.edge].points;
+    edges.push_back({scene_.point(p[0]), scene_.point(p[1])});
+  }
+  const OppositeEdges opposite(at_, edges);
+  std::vector<std::uint32_t> others;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
     const SkeletonArc a = out.arcs[i];
     if (a.ends[0]) continue;  // a contact in between grazes
     const Edge& e = scene_.edges()[a.edge];
-    const Point& e0 = scene_.point(e.points[0]);
-    const Point& e1 = scene_.point(e.points[1]);
+    const auto& [e0, e1] = edges[i];
     const PlaneSide plane_e({at_, e0, e1});
-    for (std::size_t j = i + 1; j < n; ++j) {
+    opposite.above(i, others);
+    for (const std::uint32_t j : others) {
       const SkeletonArc b = out.arcs[j];
       if (b.edge == a.edge || b.ends[0]) continue;
       const Edge& f = scene_.edges()[b.edge];
-      const Point& f0 = scene_.point(f.points[0]);
-      const Point& f1 = scene_.point(f.points[1]);
+      const auto& [f0, f1] = edges[j];
       const Sign s0 = plane_e(f0);
       const Sign s1 = plane_e(f1);
       if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) continue;
