@@ -239,8 +239,13 @@ std::optional<std::array<ExactPoint, 2>> EeeCurve::points_at(const Rational& s) 
                       p[2] + x * (q[2] - p[2])};
   };
   const auto& f = exact_form().f;
-  const Rational f0 = rational(f[0][0]) * (1 - s) + rational(f[1][0]) * s;
-  const Rational f1 = rational(f[0][1]) * (1 - s) + rational(f[1][1]) * s;
+  Rational f0 = rational(f[0][0]) * (1 - s) + rational(f[1][0]) * s;
+  Rational f1 = rational(f[0][1]) * (1 - s) + rational(f[1][1]) * s;
+  if (f0 == 0 && f1 == 0) {
+    // P(s) is on the middle edge's line, which is coplanar with the first: t is constant.
+    f0 = rational(f[1][0]) - rational(f[0][0]);
+    f1 = rational(f[1][1]) - rational(f[0][1]);
+  }
   if (f0 == f1) return std::nullopt;
   const Rational t = f0 / (f0 - f1);
   return std::array<ExactPoint, 2>{point(pair_.at(pair_.p[0]), pair_.at(pair_.p[1]), s),
