@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "skeleton/degenerate_pair_internal.h"
+#include "skeleton/drawn_internal.h"
 #include "skeleton/node_contacts_internal.h"
 
 namespace sightline::internal {
@@ -216,12 +217,7 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
       own.size() == 1 && ridge.objects.size() == 1 && own[0] == ridge.objects[0];
 
   // Lines that end in the plane of a face that vertex and edge are both on are left out.
-  const auto& sides = scene.edges()[ridge.edge].sides;
-  const bool share_facet =
-      g.polygon() && std::any_of(sides.begin(), sides.end(), [&](const Edge::Side& s) {
-        const int facet = scene.faces()[s.face].facet;
-        return std::binary_search(star.facets.begin(), star.facets.end(), facet);
-      });
+  const bool share_facet = g.polygon() && share(ridge.all_facets, star.facets);
 
   // A corner inside another face is grazed only by lines in that face's plane.
   const bool inside_face =
@@ -242,12 +238,20 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
     std::optional<Cut> begin;
     std::array<bool, 2> ends{};
     std::optional<std::uint32_t> shared;  // the node at `begin`, where one arc has ended
-    const auto state_at = [&](const ExactPoint& x) -> std::optional<std::array<bool, 2>> {
-      const auto state = open_state(g, ridge, LineScan(scene, faces, from, x));
-      if (state && inside_face && !(*state)[0]) return std::nullopt;
-      const bool ends_here = state && ((*state)[0] || (*state)[1]);
-      if (share_facet && ends_here) return std::nullopt;
-      return state;
+    // Between two critical positions (`between`): whether the contacts are drawn, too.
+    const auto state_at = [&](const ExactPoint& x,
+                              bool between) -> std::optional<std::array<bool, 2>> {
+      const LineScan scan(scene, faces, from, x);
+      const auto state = open_state(g, ridge, scan);
+      if (!state || !((*state)[0] || (*state)[1])) {
+        return inside_face ? std::nullopt : state;
+      }
+      if (share_facet || (inside_face && !(*state)[0])) return std::nullopt;
+      if (!between) return state;
+      const bool seen =
+          (!(*state)[0] || star.convex || drawn_corner(g, star, Eye(x))) &&
+          (!(*state)[1] || !ridge.touched || drawn_end(g, ridge, scan, true, Eye(from)));
+      return seen ? state : std::nullopt;
     };
     const auto end_arc = [&](const Cut& end) {
       SkeletonArc arc;
@@ -271,7 +275,7 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
       begin.reset();
     };
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-      auto state = state_at(point_between(stops[i], stops[i + 1]));
+      auto state = state_at(point_between(stops[i], stops[i + 1]), true);
       const bool only_ends =
           std::any_of(ending.begin(), ending.end(), [&](const CutInterval& e) {
             return compare(scene, line, stops[i], e.from) != Sign::Negative &&
@@ -280,7 +284,8 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
       if (state && only_ends && !(*state)[0]) state.reset();
       if (begin && i > 0) {
         // The arc goes on through a critical line that is free itself.
-        if (state != ends || state_at(point_at(stops[i])) != ends) end_arc(stops[i]);
+        if (state != ends || state_at(point_at(stops[i]), false) != ends)
+          end_arc(stops[i]);
       }
       if (!state) shared.reset();
       if (state && !begin) {
@@ -325,7 +330,15 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     }
     return false;
   };
-  const auto look_at = [&](std::uint32_t id, std::size_t arc, const Cut& cut) {
+  const auto point_on = [&](std::size_t arc, const Cut& cut) {
+    const Edge& edge = scene.edges()[view.arcs[arc].edge];
+    const Point& e0 = scene.point(edge.points[0]);
+    const Point& e1 = scene.point(edge.points[1]);
+    return along(exact_point(e0), exact_point(e1), exact_parameter(scene, {e0, e1}, cut));
+  };
+  // `other`: the point of the arc on the other side of an EVE node, or the viewpoint.
+  const auto look_at = [&](std::uint32_t id, std::size_t arc, const Cut& cut,
+                           const ExactPoint* other) {
     if (done[id]) return;
     done[id] = 1;
     SkeletonNode& node = view.nodes[id];
@@ -336,25 +349,40 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
         (!g.aligned() || !may_touch_more(node, e0, e1, cut))) {
       return;
     }
-    const ExactPoint x =
-        along(exact_point(e0), exact_point(e1), exact_parameter(scene, {e0, e1}, cut));
-    const LineScan scan(scene, faces_near_line(g, v, rounded(x)), from, x);
-    const NodeContacts all = contacts_along(g, scan, {from, x}, node.end);
+    const ExactPoint x = point_on(arc, cut);
+    const ExactPoint& start = other ? *other : from;
+    const LineScan scan(scene, faces_near_line(g, rounded(start), rounded(x)), start, x);
+    const NodeContacts all =
+        contacts_along(g, scan, {start, x}, node.end, view.grazes[id] != 0);
     if (all.generators.empty()) return;
-    if (all.kind == node.kind && all.kind != NodeKind::Degenerate) return;
+    if (all.kind == node.kind && all.kind != NodeKind::Degenerate) {
+      if (!g.polygon()) return;
+      const bool turned = view.pool[node.first_generator] != all.generators.front();
+      node.ends = {all.ends[turned ? 1 : 0], all.ends[turned ? 0 : 1]};
+      node.end = all.end;
+      return;
+    }
     node.kind = all.kind;
     node.self = all.self;
-    if (g.polygon()) node.ends = all.ends;
+    if (g.polygon()) {
+      node.ends = all.ends;
+      node.end = all.end;
+    }
     node.segment = all.segment;
     node.first_generator = static_cast<std::uint32_t>(view.pool.size());
     node.generator_count = static_cast<std::uint32_t>(all.generators.size());
     view.pool.insert(view.pool.end(), all.generators.begin(), all.generators.end());
   };
   for (std::size_t i = 0; i < view.arcs.size(); ++i) {
-    look_at(view.arcs[i].nodes[0], i, view.intervals[i].from);
-    look_at(view.arcs[i].nodes[1], i, view.intervals[i].to);
+    look_at(view.arcs[i].nodes[0], i, view.intervals[i].from, nullptr);
+    look_at(view.arcs[i].nodes[1], i, view.intervals[i].to, nullptr);
   }
-  for (const auto& [node, arc, cut] : view.line_ups) look_at(node, arc, cut);
+  for (const VertexView::LineUp& eve : view.line_ups) {
+    // Where an outer contact ends the line it is not met from the vertex.
+    const bool ends = !view.grazes[eve.node];
+    const ExactPoint other = ends ? point_on(eve.other_arc, eve.other_cut) : ExactPoint{};
+    look_at(eve.node, eve.arc, eve.cut, ends ? &other : nullptr);
+  }
 }
 
 }  // namespace sightline::internal

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "skeleton/drawn_internal.h"
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/occluder_shadow_internal.h"
@@ -88,15 +89,8 @@ void EdgePairs::visit(int i, const std::function<bool()>& stop,
 
 // A line that meets two sides of a facet lies in its plane: those are the lines of that
 // plane, not of three edges.
-bool EdgePairs::share_facet(const Ridge& a, const Ridge& b) const {
-  const auto facet = [&](const Edge::Side& s) { return scene_.faces()[s.face].facet; };
-  const auto& sides = scene_.edges()[b.edge].sides;
-  return std::any_of(scene_.edges()[a.edge].sides.begin(),
-                     scene_.edges()[a.edge].sides.end(), [&](const Edge::Side& x) {
-                       return std::any_of(
-                           sides.begin(), sides.end(),
-                           [&](const Edge::Side& y) { return facet(x) == facet(y); });
-                     });
+bool EdgePairs::share_facet(const Ridge& a, const Ridge& b) {
+  return share(a.all_facets, b.all_facets);
 }
 
 EdgePairs::PlaneValues EdgePairs::values(const PlaneSide& plane, const Point& p0,
@@ -414,26 +408,31 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
   using State = std::optional<std::array<bool, 2>>;
   const Ridge& first = g_.ridges()[outer.first];
   const Ridge& last = g_.ridges()[outer.last];
-  const auto state_of =
-      [&](const std::optional<std::array<ExactPoint, 2>>& line) -> State {
+  const auto state_of = [&](const std::optional<std::array<ExactPoint, 2>>& line,
+                            bool drawn) -> State {
     if (!line) return std::nullopt;
     const LineScan scan(scene_, faces, (*line)[0], (*line)[1]);
     if (!g_.polygon()) return is_free(scan) ? State(stretch.ends) : std::nullopt;
     const State ends = blocked_ends(g_, scan);
     const bool possible = ends && ((*ends)[0] ? first.can_end() : first.can_graze()) &&
                           ((*ends)[1] ? last.can_end() : last.can_graze());
-    return possible ? ends : std::nullopt;
+    if (!possible) return std::nullopt;
+    const bool seen = !drawn || ((!(*ends)[0] || !first.touched ||
+                                  drawn_end(g_, first, scan, false, Eye((*line)[1]))) &&
+                                 (!(*ends)[1] || !last.touched ||
+                                  drawn_end(g_, last, scan, true, Eye((*line)[0]))));
+    return seen ? ends : std::nullopt;
   };
   std::vector<Stretch> free;
   std::optional<CurveCut> begin;
   State state;  // from `begin` on
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     const auto s = curve.between(stops[i], stops[i + 1]);
-    const State here = s ? state_of(curve.points_at(*s)) : std::nullopt;
+    const State here = s ? state_of(curve.points_at(*s), true) : std::nullopt;
     if (begin && i > 0) {
       // The arc goes on through a critical line that is free itself.
       const auto line = curve.points_at(stops[i]);
-      if (here != state || (line && state_of(line) != state)) {
+      if (here != state || (line && state_of(line, false) != state)) {
         free.push_back({{*begin, stops[i]}, stretch.f0, *state});
         begin.reset();
       }

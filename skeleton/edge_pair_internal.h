@@ -25,6 +25,8 @@ namespace sightline::internal {
 struct FoundNode {
   NodeKind kind = NodeKind::EEEE;
   bool self = false, end = false;
+  /// Found by an arc of solid mode.
+  bool grazes = true;
   /// EEEE and Degenerate: which of the two lines.
   bool rising = false;
   /// Polygon mode: the first, the last contact is an end contact.
@@ -63,7 +65,7 @@ class EdgePairs {
   };
 
   void visit_pair(int i, int j, std::vector<FoundArc>& out);
-  [[nodiscard]] bool share_facet(const Ridge& a, const Ridge& b) const;
+  [[nodiscard]] static bool share_facet(const Ridge& a, const Ridge& b);
   [[nodiscard]] bool gather(const Outer& outer);
   [[nodiscard]] bool is_of(const Ridge& ridge, int face) const;
   [[nodiscard]] bool enters_only(int face) const;

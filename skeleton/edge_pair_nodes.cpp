@@ -78,6 +78,7 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
   const Generator between = edge(middle);
   const Generator last = edge(outer.last);
   FoundNode node;
+  node.grazes = !stretch.ends[0] && !stretch.ends[1];
   const auto set = [&](NodeKind kind, std::initializer_list<Generator> generators) {
     node.kind = kind;
     node.count = static_cast<std::uint8_t>(generators.size());
@@ -270,22 +271,20 @@ bool EdgePairs::may_touch_beyond(const Outer& outer, const EeeCurve& curve,
 void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
                               const CurveCut& cut, FoundNode& node) const {
   NodeContacts all;
-  std::optional<NodeContacts> between;
   if (const auto points = curve.points_at(cut)) {
     const auto& [a, b] = *points;
     const LineScan scan(scene_, faces_near_line(g_, rounded(a), rounded(b)), a, b);
-    between = contacts_between(g_, scan);
-    all = contacts_along(g_, scan, *points, between->end);
+    const NodeContacts between = contacts_between(g_, scan);
+    all = contacts_along(g_, scan, *points, between.end, node.grazes);
   } else if (const auto line = curve.line_at(cut)) {
     const auto edge = [&](int ridge) { return g_.ridges()[ridge].edge; };
-    all = contacts_along(g_, *line, {edge(outer.first), edge(outer.last)});
+    all = contacts_along(g_, *line, {edge(outer.first), edge(outer.last)}, node.grazes);
   }
   if (all.generators.empty()) return;
-  if (all.kind == node.kind && g_.polygon()) {
-    const bool told = between && (!between->end || between->ends[0] || between->ends[1]);
-    if (!told) return;  // blocked in between: as the arc's
-    node.ends = between->ends;
-    if (cut.kind == CurveCutKind::Far) std::swap(node.ends[0], node.ends[1]);
+  if (all.kind == node.kind && g_.polygon() && all.kind != NodeKind::Degenerate) {
+    const bool turned = node.generators[0] != all.generators.front();
+    node.ends = {all.ends[turned ? 1 : 0], all.ends[turned ? 0 : 1]};
+    node.end = all.end;
     return;
   }
   if (all.kind == node.kind && !all.end)
@@ -293,7 +292,7 @@ void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
   node.kind = all.kind;
   node.self = all.self;
   node.end = all.end;
-  if (g_.polygon() && between) node.ends = all.ends;
+  node.ends = all.ends;
   node.rising = all.second;
   node.all = all.generators;
   node.segment = all.segment;

@@ -17,7 +17,8 @@ namespace {
 // One node for each line, also for those that the EV part has found.
 class LineJoiner {
  public:
-  explicit LineJoiner(Skeleton& skeleton) : out_(skeleton) {
+  LineJoiner(Skeleton& skeleton, NodeEnds& ends)
+      : out_(skeleton), ends_(ends), solid_(skeleton.events == EventMode::Solid) {
     for (std::uint32_t i = 0; i < out_.nodes.size(); ++i) {
       const SkeletonNode& node = out_.nodes[i];
       if (node.kind == NodeKind::Degenerate) {
@@ -26,7 +27,7 @@ class LineJoiner {
       }
       const auto generators = out_.generators(node);
       if (node.kind == NodeKind::FvE) {
-        known_.try_emplace(face_line_key(node.end, node.ends, generators), i);
+        known_.try_emplace(face_line_key(solid_ && node.end, generators), i);
       } else if (node.kind == NodeKind::VEE || node.kind == NodeKind::EVE) {
         known_.try_emplace(line_key(node.kind, false, generators), i);
       }
@@ -44,29 +45,33 @@ class LineJoiner {
 
  private:
   std::uint32_t add_node(const FoundNode& found) {
-    if (found.kind == NodeKind::Degenerate) return add_degenerate(found);
     const std::span<const Generator> generators =
         found.all.empty()
             ? std::span<const Generator>(found.generators.data(), found.count)
             : std::span<const Generator>(found.all);
-    // Both arcs that end at an EEEE are found between the same outer edges.
-    auto& nodes = found.kind == NodeKind::EEEE ? local_ : known_;
+    const auto next = static_cast<std::uint32_t>(out_.nodes.size());
     const bool end = found.end || found.ends[0] || found.ends[1];
-    const LineKey key = found.kind == NodeKind::FvE
-                            ? face_line_key(end, found.ends, generators)
-                            : line_key(found.kind, found.rising, generators);
-    const auto [at, fresh] =
-        nodes.try_emplace(key, static_cast<std::uint32_t>(out_.nodes.size()));
-    if (fresh) append(found, generators);
-    return at->second;
+    const std::uint32_t node = numbered(found, generators, end, next);
+    if (node == next) {
+      append(found, generators);
+    } else {
+      ends_.found(node, found.grazes, end, found.ends, generators);
+    }
+    return node;
   }
 
-  std::uint32_t add_degenerate(const FoundNode& found) {
-    const auto [at, fresh] = degenerate_.try_emplace(
-        {found.all, found.rising}, static_cast<std::uint32_t>(out_.nodes.size()));
-    if (fresh) append(found, found.all);
-    out_.nodes[at->second].end |= found.end;
-    return at->second;
+  // The number under which the node is known, or becomes known.
+  std::uint32_t numbered(const FoundNode& found, std::span<const Generator> generators,
+                         bool end, std::uint32_t next) {
+    if (found.kind == NodeKind::Degenerate) {
+      return degenerate_.try_emplace({found.all, found.rising}, next).first->second;
+    }
+    // Both arcs that end at an EEEE are found between the same outer edges.
+    auto& nodes = found.kind == NodeKind::EEEE ? local_ : known_;
+    const LineKey key = found.kind == NodeKind::FvE
+                            ? face_line_key(solid_ && end, generators)
+                            : line_key(found.kind, found.rising, generators);
+    return nodes.try_emplace(key, next).first->second;
   }
 
   void append(const FoundNode& found, std::span<const Generator> generators) {
@@ -82,9 +87,12 @@ class LineJoiner {
     out_.generator_pool.insert(out_.generator_pool.end(), generators.begin(),
                                generators.end());
     out_.nodes.push_back(node);
+    ends_.add(found.grazes);
   }
 
   Skeleton& out_;
+  NodeEnds& ends_;
+  bool solid_;
   std::unordered_map<LineKey, std::uint32_t, LineHash> known_, local_;
   // By all generators, and which of two lines.
   std::map<std::pair<std::vector<Generator>, bool>, std::uint32_t> degenerate_;
@@ -107,7 +115,7 @@ void drop_arcs_off_source(const Generators& g, const EeePart& part,
 
 void add_eee(const Generators& generators, const SkeletonRequest& request,
              std::chrono::steady_clock::time_point start, std::array<double, 2> progress,
-             Skeleton& skeleton) {
+             Skeleton& skeleton, NodeEnds& ends) {
   const EeePart part = eee_part(generators, request);
   const std::vector<int> firsts = asked_ridges(generators, part);
   skeleton.edges_asked = firsts.size();
@@ -116,7 +124,7 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
     return;
   }
   const Carriers carriers(generators);
-  LineJoiner joiner(skeleton);
+  LineJoiner joiner(skeleton, ends);
   std::optional<SkeletonLines> lines;
   if (part.by_lines) lines.emplace(generators.scene());
   skeleton.stopped_by = for_each_parallel(

@@ -220,7 +220,7 @@ void FacePairs::add_node(int f, int g, std::size_t first, std::size_t last,
   found.segment = {rounded(from), rounded(to)};
   const LineScan scan(scene_, faces_near_line(g_, found.segment[0], found.segment[1]),
                       from, to);
-  found.contacts = contacts_along(g_, scan, {from, to}, false);
+  found.contacts = contacts_along(g_, scan, {from, to}, false, true);
   NodeContacts& contacts = found.contacts;
   const Generator both[] = {{GeneratorKind::Face, f}, {GeneratorKind::Face, g}};
   const bool only_these = std::ranges::all_of(contacts.generators, [&](const auto& x) {

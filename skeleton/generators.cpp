@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "linespace/transversals_internal.h"
+#include "skeleton/drawn_internal.h"
 #include "skeleton/generators_internal.h"
 
 namespace sightline::internal {
@@ -185,38 +186,6 @@ std::optional<std::array<Rational, 2>> stretch_inside(const Scene& scene, int f,
   return std::array<Rational, 2>{low, high};
 }
 
-// The faces at coinciding edges of several objects, but for pairs that touch each other
-// back to front, lie in one plane: a seam at which nothing is to be seen.
-bool flush_seam(const Scene& scene, std::span<const PlaneSide> planes,
-                std::span<const int> faces, const Point& e0, const Point& e1) {
-  const auto third = [&](int f) {
-    const auto corners = scene.face_points(f);
-    return *std::find_if(corners.begin(), corners.end(),
-                         [&](int p) { return !collinear(e0, e1, scene.point(p)); });
-  };
-  const auto in_plane = [&](int f, int g) {
-    return planes[f](scene.point(third(g))) == Sign::Zero;
-  };
-  const auto touch = [&](int f, int g) {
-    if (!in_plane(f, g)) return false;
-    const InPlaneSide left_of(scene, f);
-    if (left_of(e0, e1, scene.point(third(f))) != left_of(e0, e1, scene.point(third(g))))
-      return false;
-    return std::any_of(faces.begin(), faces.end(), [&](int h) {
-      const Point& p = scene.point(third(h));
-      return planes[f](p) != Sign::Zero && planes[f](p) == -planes[g](p);
-    });
-  };
-  std::vector<int> seen;
-  for (const int f : faces) {
-    if (std::none_of(faces.begin(), faces.end(), [&](int g) { return touch(f, g); })) {
-      seen.push_back(f);
-    }
-  }
-  return std::all_of(seen.begin(), seen.end(),
-                     [&](int f) { return in_plane(seen[0], f); });
-}
-
 // The stretches cover the whole edge.
 bool cover_edge(std::vector<std::array<Rational, 2>> stretches) {
   std::sort(stretches.begin(), stretches.end());
@@ -334,6 +303,26 @@ void Generators::find_outlines() {
   }
 }
 
+namespace {
+
+std::vector<std::int32_t> facets_of(const Scene& scene,
+                                    std::span<const std::int32_t> faces) {
+  std::vector<std::int32_t> facets;
+  for (const int f : faces) facets.push_back(scene.faces()[f].facet);
+  return facets;
+}
+
+}  // namespace
+
+struct Generators::EdgeFaces {
+  std::vector<std::int32_t> thirds, faces;  // a point of each half-plane, its face
+  int a = -1, b = -1;                       // those that bound a gap of more than half
+  bool reflex = false;                      // of a closed object: that gap is inside
+  bool touched = false, foot = false;
+  bool many = false;  // polygon mode: more than two half-planes
+  [[nodiscard]] bool has_gap() const { return a >= 0 && b >= 0; }
+};
+
 void Generators::find_ridges() {
   const Scene& s = *scene_;
   ridge_of_edge_.assign(s.edges().size(), -1);
@@ -343,7 +332,8 @@ void Generators::find_ridges() {
     const Point& e0 = s.point(e.points[0]);
     const Point& e1 = s.point(e.points[1]);
     // The third point of each face at the edge gives the direction of its half-plane.
-    std::vector<std::int32_t> thirds, faces;
+    EdgeFaces at;
+    auto& [thirds, faces, a, b, reflex, is_touched, is_foot, many] = at;
     for (const Edge::Side& side : e.sides) {
       for (const int p : s.face_points(side.face)) {
         if (collinear(e0, e1, s.point(p))) continue;
@@ -354,33 +344,39 @@ void Generators::find_ridges() {
     }
     // The two half-planes with all others strictly to one side of them.
     const auto extreme = [&](Sign wanted) {
-      for (std::size_t a = 0; a < thirds.size(); ++a) {
+      for (std::size_t k = 0; k < thirds.size(); ++k) {
         bool ok = true;
-        for (std::size_t b = 0; b < thirds.size() && ok; ++b) {
-          if (b == a) continue;
-          const Sign t = orient3d(e0, e1, s.point(thirds[a]), s.point(thirds[b]));
+        for (std::size_t l = 0; l < thirds.size() && ok; ++l) {
+          if (l == k) continue;
+          const Sign t = orient3d(e0, e1, s.point(thirds[k]), s.point(thirds[l]));
           if (t == Sign::Zero) {
             // Same half-plane or the opposite one: told apart by any plane through the
             // edge other than theirs.
-            const InPlaneSide left_of(s, faces[a]);
-            ok = left_of(e0, e1, s.point(thirds[a])) ==
-                 left_of(e0, e1, s.point(thirds[b]));
+            const InPlaneSide left_of(s, faces[k]);
+            ok = left_of(e0, e1, s.point(thirds[k])) ==
+                 left_of(e0, e1, s.point(thirds[l]));
           } else {
             ok = t == wanted;
           }
         }
-        if (ok) return static_cast<int>(a);
+        if (ok) return static_cast<int>(k);
       }
       return -1;
     };
-    const int a = extreme(Sign::Positive);
-    const int b = extreme(Sign::Negative);
-    if (a < 0 || b < 0) continue;
+    if (polygon() && thirds.size() > 2) {
+      EdgeFan fan(*this, e0, e1);
+      for (const int f : faces) fan.add(f);
+      fan.close();
+      many = fan.leaves().size() > 2;
+    }
+    a = extreme(Sign::Positive);
+    b = extreme(Sign::Negative);
+    if (!at.has_gap() && !polygon()) continue;
     // In a closed object the gap must be outside: fronts face it.
     const bool closed = s.objects()[e.object].closed;
-    const bool reflex = closed && thirds.size() > 1 && e.kind == EdgeKind::Reflex;
+    reflex = closed && thirds.size() > 1 && e.kind == EdgeKind::Reflex;
     if (reflex && !polygon()) continue;
-    if (s.objects()[e.object].closed && e.kind == EdgeKind::NonManifold) {
+    if (closed && e.kind == EdgeKind::NonManifold && at.has_gap()) {
       const auto fronts_gap = [&](int k, Sign wanted) {
         // Positive side of (e0, e1, third) is the wedge for a, the gap for b.
         const PlaneThrough p = face_plane_through(s, faces[k]);
@@ -394,7 +390,8 @@ void Generators::find_ridges() {
           some |= fronts_gap(static_cast<int>(k), Sign::Negative);
         }
       }
-      if (!some) continue;
+      if (!some && !polygon()) continue;
+      if (!some) a = b = -1;
     }
     const Box box = box_between(e0, e1);
     EdgeTouch touched = EdgeTouch::None;
@@ -402,11 +399,12 @@ void Generators::find_ridges() {
     std::vector<int> grounds;  // faces that contain a part of the edge
     face_tree_.traverse(
         [&](const Box& other) {
-          return touched != EdgeTouch::ContainsInside && boxes_meet(box, other);
+          return (polygon() || touched != EdgeTouch::ContainsInside) &&
+                 boxes_meet(box, other);
         },
         [&](std::uint32_t item) {
           const int f = static_cast<int>(item);
-          if (touched == EdgeTouch::ContainsInside) return;
+          if (!polygon() && touched == EdgeTouch::ContainsInside) return;
           if (has_point(s, f, e.points[0]) && has_point(s, f, e.points[1])) {
             const bool own = std::find(faces.begin(), faces.end(), f) != faces.end();
             if (own || s.faces()[f].object == e.object) return;
@@ -426,52 +424,154 @@ void Generators::find_ridges() {
         });
     const bool covered = cover_edge(std::move(stretches));
     const bool inside_faces = covered || touched == EdgeTouch::ContainsInside;
-    // The foot of a wall is a valley of the union.
-    const bool foot = polygon() && inside_faces &&
-                      std::all_of(grounds.begin(), grounds.end(), [&](int f) {
-                        return std::any_of(thirds.begin(), thirds.end(), [&](int p) {
-                          return face_planes_[f](s.point(p)) == Sign::Positive;
-                        });
-                      });
+    // The foot of a wall is a valley of the union; what hangs below an open floor too.
+    const bool foot =
+        polygon() && inside_faces &&
+        std::any_of(grounds.begin(), grounds.end(), [&](int f) {
+          const bool solid = s.objects()[s.faces()[f].object].closed;
+          return std::any_of(thirds.begin(), thirds.end(), [&](int p) {
+            const Sign side = face_planes_[f](s.point(p));
+            return side == Sign::Positive || (!solid && side == Sign::Negative);
+          });
+        });
+    is_foot = foot;
+    is_touched = touched == EdgeTouch::Touches || foot;
     if (covered && !foot) continue;
+    const int edge = static_cast<int>(i);
     // Edges of several objects that coincide are one generator.
-    if (!ridges_.empty() && ridges_.back().points == e.points) {
-      ridges_.back().touched = true;
-      ridges_.back().objects.push_back(e.object);
-      ridge_of_edge_[i] = static_cast<int>(ridges_.size() - 1);
-      if (polygon()) {
-        std::vector<int> around;
-        for (auto k = static_cast<std::size_t>(ridges_.back().edge); k <= i; ++k) {
-          if (s.edges()[k].points != e.points) continue;
-          for (const Edge::Side& side : s.edges()[k].sides) around.push_back(side.face);
-        }
-        const bool crease = !flush_seam(s, face_planes_, around, e0, e1);
-        ridges_.back().ends_in_front = ridges_.back().ends_behind = crease;
-      }
-      continue;
-    }
+    if (join_ridge(edge, at)) continue;
     if (inside_faces && !foot) continue;
     ridge_of_edge_[i] = static_cast<int>(ridges_.size());
-    // Behind both planes is the wedge.
-    ridges_.push_back({static_cast<std::int32_t>(i),
-                       {e.object},
-                       e.points,
-                       PlaneSide({e1, e0, s.point(thirds[a])}),
-                       PlaneSide({e0, e1, s.point(thirds[b])}),
-                       {thirds[a], thirds[b]},
-                       {s.faces()[faces[a]].facet, s.faces()[faces[b]].facet},
-                       touched == EdgeTouch::Touches || foot});
-    if (polygon()) {
-      Ridge& ridge = ridges_.back();
-      ridge.grazes = !reflex;
-      ridge.foot = foot;
-      const bool crease = thirds.size() > 1 || foot;
-      ridge.ends_in_front = crease && !reflex;
-      ridge.ends_behind = crease && (reflex || !closed);
+    if (many && !is_touched) {
+      add_gaps(edge, at, boxes);
+    } else {
+      add_ridge(edge, at, boxes);
     }
-    boxes.push_back(box);
+    if (ridge_of_edge_[i] == static_cast<int>(ridges_.size())) ridge_of_edge_[i] = -1;
   }
   ridge_tree_ = Bvh(boxes);
+}
+
+// To the ridge of an edge with the same ends, found before.
+bool Generators::join_ridge(int edge, const EdgeFaces& at) {
+  const Edge& e = scene_->edges()[edge];
+  if (ridges_.empty() || ridges_.back().points != e.points) return false;
+  Ridge& ridge = ridges_.back();
+  ridge.touched = true;
+  ridge.objects.push_back(e.object);
+  const auto facets = facets_of(*scene_, at.faces);
+  ridge.all_facets.insert(ridge.all_facets.end(), facets.begin(), facets.end());
+  ridge_of_edge_[edge] = static_cast<int>(ridges_.size() - 1);
+  if (!polygon()) return true;
+  // Named and grazed as in solid mode, which knows only edges that lines graze.
+  const bool grazes = at.has_gap() && !at.reflex && !at.foot;
+  if (!ridge.can_graze() && grazes) {
+    std::vector<Box> unused;
+    std::vector<std::int32_t> objects = std::move(ridge.objects);
+    std::vector<std::int32_t> all_facets = std::move(ridge.all_facets);
+    const std::int32_t first = ridge.edge;
+    ridges_.pop_back();
+    add_ridge(edge, at, unused);
+    ridges_.back().objects = std::move(objects);
+    ridges_.back().all_facets = std::move(all_facets);
+    ridges_.back().touched = true;
+    const bool crease = shows_crease(e.points, first, edge);
+    ridges_.back().ends_in_front = ridges_.back().ends_behind = crease;
+    ridges_.back().any_side = crease;
+    return true;
+  }
+  const bool crease = shows_crease(e.points, std::min(ridge.edge, edge), edge);
+  ridge.ends_in_front = ridge.ends_behind = ridge.any_side = crease;
+  return true;
+}
+
+// Of all edges between those ends with such numbers: lines can end there.
+bool Generators::shows_crease(std::array<std::int32_t, 2> points, std::int32_t first_edge,
+                              std::int32_t last_edge) const {
+  EdgeFan fan(*this, scene_->point(points[0]), scene_->point(points[1]));
+  for (std::int32_t k = first_edge; k <= last_edge; ++k) {
+    if (scene_->edges()[k].points != points) continue;
+    for (const Edge::Side& side : scene_->edges()[k].sides) fan.add(side.face);
+  }
+  fan.close();
+  return std::any_of(fan.sectors().begin(), fan.sectors().end(), [](const auto& s) {
+    return s.free && s.turn != EdgeFan::Turn::Flat && s.from != s.to;
+  });
+}
+
+// One ridge for the edge, whose gap is that between faces a and b.
+void Generators::add_ridge(int edge, const EdgeFaces& at, std::vector<Box>& boxes) {
+  const Scene& s = *scene_;
+  const Edge& e = s.edges()[edge];
+  const Point& e0 = s.point(e.points[0]);
+  const Point& e1 = s.point(e.points[1]);
+  const auto& thirds = at.thirds;
+  if (!at.has_gap() && !at.many) return;
+  const auto a = static_cast<std::size_t>(at.has_gap() ? at.a : 0);
+  const auto b = static_cast<std::size_t>(at.has_gap() ? at.b : 1);
+  // Behind both planes is the wedge.
+  ridges_.push_back({edge,
+                     {e.object},
+                     e.points,
+                     PlaneSide({e1, e0, s.point(thirds[a])}),
+                     PlaneSide({e0, e1, s.point(thirds[b])}),
+                     {thirds[a], thirds[b]},
+                     {s.faces()[at.faces[a]].facet, s.faces()[at.faces[b]].facet},
+                     facets_of(s, at.faces),
+                     at.touched});
+  boxes.push_back(box_between(e0, e1));
+  if (!polygon()) return;
+  Ridge& ridge = ridges_.back();
+  ridge.grazes = at.has_gap() && !at.reflex;
+  ridge.foot = at.foot;
+  const bool closed = s.objects()[e.object].closed;
+  const bool crease = thirds.size() > 1 || at.touched;
+  ridge.ends_in_front = (crease && !at.reflex) || at.many;
+  ridge.ends_behind = (crease && (at.reflex || !closed)) || at.many;
+  ridge.any_side = at.many;
+}
+
+// Of an edge with three faces or more, touched by no others: one ridge for each gap in
+// which something is to be seen.
+void Generators::add_gaps(int edge, const EdgeFaces& at, std::vector<Box>& boxes) {
+  const Scene& s = *scene_;
+  const Edge& e = s.edges()[edge];
+  if (at.has_gap() && !at.reflex) {
+    add_ridge(edge, at, boxes);
+    ridges_.back().ends_behind = ridges_.back().any_side = false;
+  }
+  const Point& e0 = s.point(e.points[0]);
+  const Point& e1 = s.point(e.points[1]);
+  EdgeFan fan(*this, e0, e1);
+  for (const int face : at.faces) fan.add(face);
+  fan.close();
+  const auto sectors = fan.sectors();
+  const auto narrow = [](const EdgeFan::Sector& x) {
+    return x.free && x.turn == EdgeFan::Turn::Narrow;
+  };
+  for (std::size_t k = 0; k < sectors.size(); ++k) {
+    const EdgeFan::Sector& sector = sectors[k];
+    if (!narrow(sector)) continue;
+    const EdgeFan::Leaf& a = fan.leaves()[sector.from];
+    const EdgeFan::Leaf& b = fan.leaves()[sector.to];
+    Ridge ridge{edge,
+                {e.object},
+                e.points,
+                PlaneSide({e1, e0, s.point(a.third)}),
+                PlaneSide({e0, e1, s.point(b.third)}),
+                {a.third, b.third},
+                {a.facet, b.facet},
+                facets_of(s, at.faces),
+                false};
+    ridge.grazes = false;
+    ridge.ends_behind = true;
+    // Lines along a leaf between two gaps are told once.
+    const EdgeFan::Sector& before = sectors[(k + sectors.size() - 1) % sectors.size()];
+    ridge.ends_along = {fan.ends_along(sector.from) && !narrow(before),
+                        fan.ends_along(sector.to)};
+    ridges_.push_back(std::move(ridge));
+    boxes.push_back(box_between(e0, e1));
+  }
 }
 
 void Generators::find_stars() {

@@ -22,7 +22,8 @@ namespace sightline::internal {
 enum class EdgeContact : std::uint8_t { None, Graze, End };
 
 /// An edge with a free gap of more than half a turn around it: some lines graze there.
-/// In polygon mode also a crease at which lines only end.
+/// In polygon mode also a crease at which lines only end; an edge with three faces or
+/// more has one for each gap (docs/polygon_mode.md).
 ///
 /// The faces at the edge lie in the wedge between half-planes A and B; a line through a
 /// point of the edge grazes iff it does not pass from the wedge into its opposite, that
@@ -35,6 +36,8 @@ struct Ridge {
   PlaneSide a, b;
   /// A point beside the edge in the plane of a, of b; and the facet of the face there.
   std::array<std::int32_t, 2> thirds, facets;
+  /// Of all faces at the edge, and at those that coincide with it.
+  std::vector<std::int32_t> all_facets;
   /// A foreign face touches the open edge: lines there need the general contact test.
   bool touched;
   /// Lines can graze: false for reflex edges.
@@ -44,6 +47,12 @@ struct Ridge {
   /// Polygon mode: from a viewpoint strictly in front of both planes, strictly behind
   /// both (inside the wedge), the edge is seen and the line ends there.
   bool ends_in_front = false, ends_behind = false;
+  /// From a viewpoint in the plane of a, of b, on the face's side: whether the line along
+  /// the face ends at the edge, for edges that no line grazes.
+  std::array<bool, 2> ends_along{true, true};
+  /// Polygon mode, `touched`: what is seen differs along the edge and is asked line by
+  /// line (drawn_internal.h).
+  bool any_side = false;
 
   /// Polygon mode: lines can end here.
   [[nodiscard]] bool can_end() const { return ends_in_front || ends_behind; }
@@ -53,8 +62,11 @@ struct Ridge {
   [[nodiscard]] EdgeContact contact(Sign sign_a, Sign sign_b) const {
     if (sign_a != sign_b || sign_a == Sign::Zero) {
       if (grazes) return EdgeContact::Graze;
+      if (any_side) return EdgeContact::End;
       // In the plane of one face: along it from the free side, or else from inside.
-      const bool along = sign_a != Sign::Positive && sign_b != Sign::Positive;
+      const bool along = sign_a != Sign::Positive && sign_b != Sign::Positive &&
+                         ((sign_a == Sign::Zero && ends_along[0]) ||
+                          (sign_b == Sign::Zero && ends_along[1]));
       return ends_behind && along ? EdgeContact::End : EdgeContact::None;
     }
     const bool ends = sign_a == Sign::Positive ? ends_in_front : ends_behind;
@@ -92,8 +104,8 @@ class Generators {
   /// Polygon mode: ridges() holds creases at which lines only end too.
   [[nodiscard]] bool polygon() const { return events_ == EventMode::Polygon; }
   [[nodiscard]] std::span<const Ridge> ridges() const { return ridges_; }
-  /// Ridge number of a scene edge (the same for coinciding ones), -1 when lines never
-  /// graze it.
+  /// Ridge number of a scene edge (the same for coinciding ones; of several gaps that in
+  /// which lines graze, or the first), -1 when no line has a contact there.
   [[nodiscard]] int ridge_of_edge(int edge) const { return ridge_of_edge_[edge]; }
   [[nodiscard]] std::span<const Star> stars() const { return stars_; }
   /// Position in stars() of a corner point, -1 for other points.
@@ -131,6 +143,12 @@ class Generators {
   void find_convex_solids();
   void find_outlines();
   void find_ridges();
+  struct EdgeFaces;  // the faces at one edge
+  void add_ridge(int edge, const EdgeFaces& at, std::vector<Box>& boxes);
+  void add_gaps(int edge, const EdgeFaces& at, std::vector<Box>& boxes);
+  bool join_ridge(int edge, const EdgeFaces& at);
+  [[nodiscard]] bool shows_crease(std::array<std::int32_t, 2> points,
+                                  std::int32_t first_edge, std::int32_t last_edge) const;
   void find_stars();
   void find_inside();
   void find_aligned();

@@ -180,7 +180,7 @@ class IrrationalScan {
 }  // namespace
 
 NodeContacts contacts_along(const Generators& g, const ExactLine& line,
-                            const std::array<int, 2>& outer) {
+                            const std::array<int, 2>& outer, bool grazes) {
   const auto contact_with = [&](int edge) {
     const auto& p = g.scene().edges()[edge].points;
     return line.contact({g.scene().point(p[0]), g.scene().point(p[1])}).point;
@@ -208,12 +208,27 @@ NodeContacts contacts_along(const Generators& g, const ExactLine& line,
   if (from < 0) return {};
   bool end = false;
   for (int i = from; i <= to; ++i) end |= scan.blocked(i);
-  if (!end) {
-    while (from > 0 && !scan.blocked(from - 1)) --from;
-    while (to + 1 < scan.size() && !scan.blocked(to + 1)) ++to;
+  const bool with_ends = g.polygon() && !grazes;
+  const auto go_on = [&](int contact, int step) {
+    while (!scan.blocked(contact)) {
+      const int next = contact + step;
+      if (next < 0 || next >= scan.size()) break;
+      if (scan.blocked(next) && (!with_ends || contacts[next].empty())) break;
+      contact = next;
+    }
+    return contact;
+  };
+  if (!end || with_ends) {
+    from = go_on(from, -1);
+    to = go_on(to, 1);
   }
   NodeContacts node = node_along(g, {contacts.begin() + from, contacts.begin() + to + 1});
   node.end = end;
+  if (with_ends || (g.polygon() && end)) {
+    node.ends = {scan.blocked(node.turned ? to : from),
+                 scan.blocked(node.turned ? from : to)};
+    node.end = node.end || node.ends[0] || node.ends[1];
+  }
   // In the order in which they are listed.
   for (int k = 0; k <= to - from; ++k) {
     const int i = node.turned ? to - k : from + k;

@@ -26,6 +26,6 @@ namespace sightline::internal {
 /// Requires an irrational line.  Cost: some microseconds a face near the line.
 [[nodiscard]] NodeContacts contacts_along(const Generators& generators,
                                           const ExactLine& line,
-                                          const std::array<int, 2>& outer);
+                                          const std::array<int, 2>& outer, bool grazes);
 
 }  // namespace sightline::internal

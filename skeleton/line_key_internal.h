@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <utility>
 
 #include "skeleton/skeleton.h"
 
@@ -41,14 +40,11 @@ struct LineHash {
   return key;
 }
 
-/// Of an FvE node, told from its vertex or from its edge: by its vertex, edge and facet,
-/// and by which contacts the line ends at.
-[[nodiscard]] inline LineKey face_line_key(bool end, std::array<bool, 2> ends,
+/// Of an FvE node, told from its vertex or from its edge: by its vertex, edge and facet.
+[[nodiscard]] inline LineKey face_line_key(bool end,
                                            std::span<const Generator> generators) {
-  if (generators.front().kind == GeneratorKind::Edge) std::swap(ends[0], ends[1]);
   LineKey key;
-  key.tag = static_cast<std::uint32_t>(NodeKind::FvE) | (end ? 256u : 0u) |
-            (ends[0] ? 512u : 0u) | (ends[1] ? 1024u : 0u);
+  key.tag = static_cast<std::uint32_t>(NodeKind::FvE) | (end ? 256u : 0u);
   for (const Generator& x : generators) key.ids[static_cast<std::size_t>(x.kind)] = x.id;
   return key;
 }

@@ -305,7 +305,14 @@ std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
                                                 const LineScan& scan) {
   std::array<bool, 2> ends{};
   for (int i = 0; i < scan.size(); ++i) {
-    if (!meets_segment(scan, i) || !blocks_segment(scan, i)) continue;
+    if (!meets_segment(scan, i)) continue;
+    if (scan.from(i) == scan.to(i)) {  // a point, as most are
+      if (!scan.blocked(i)) continue;
+      if (scan.from(i) != 0 && scan.from(i) != 1) return std::nullopt;
+      ends[scan.from(i) == 0 ? 0 : 1] = true;
+      continue;
+    }
+    if (!blocks_segment(scan, i)) continue;
     const Pressed pressed = pressed_parts(g, scan, i);
     if (pressed.inside) return std::nullopt;
     const std::array<bool, 2> beyond = pressed.beyond;
@@ -339,7 +346,8 @@ NodeContacts contacts_between(const Generators& g, const LineScan& scan) {
 }
 
 NodeContacts contacts_along(const Generators& g, const LineScan& scan,
-                            const std::array<ExactPoint, 2>& line, bool end) {
+                            const std::array<ExactPoint, 2>& line, bool end,
+                            bool grazes) {
   int first = -1;
   int last = -1;
   for (int c = 0; c < scan.size(); ++c) {
@@ -347,24 +355,38 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
     if (scan.from(c) <= 1 && scan.to(c) >= 1) last = c;
   }
   if (first < 0 || last < 0) return {};
+  const bool polygon = g.polygon();
   // Polygon mode: the contacts at which the line ends, and beyond which nothing is seen.
   std::array<bool, 2> stops_at{};
-  if (g.polygon() && end) {
+  if (polygon && !grazes && end) {
     stops_at = blocked_ends(g, scan).value_or(
         std::array<bool, 2>{blocks_segment(scan, first), blocks_segment(scan, last)});
   }
-  if (!stops_at[0]) first = last_contact(scan, first, -1);
-  if (!stops_at[1]) last = last_contact(scan, last, 1);
+  const auto go_on = [&](int contact, int step) {
+    const int at = last_contact(scan, contact, step);
+    const int next = at + step;
+    if (!polygon || grazes || scan.blocked(at)) return at;
+    const bool ends = next >= 0 && next < scan.size() && scan.blocked(next) &&
+                      !generators_of(g, scan, next).empty();
+    return ends ? next : at;
+  };
+  if (!stops_at[0]) first = go_on(first, -1);
+  if (!stops_at[1]) last = go_on(last, 1);
   std::vector<std::vector<Generator>> groups;
   for (int c = first; c <= last; ++c) groups.push_back(generators_of(g, scan, c));
   NodeContacts node = node_along(g, groups);
   node.segment = {rounded(along(line[0], line[1], scan.from(first))),
                   rounded(along(line[0], line[1], scan.to(last)))};
   if (node.turned) std::swap(node.segment[0], node.segment[1]);
-  node.ends = {stops_at[node.turned ? 1 : 0], stops_at[node.turned ? 0 : 1]};
   // A line along a face that ends where the face does.
   const bool stops = scan.blocked(first) || scan.blocked(last);
   node.end = end || (node.kind == NodeKind::FEE && stops);
+  if (polygon && (!grazes || node.end)) {
+    const std::array<bool, 2> ends{stops_at[0] || scan.blocked(first),
+                                   stops_at[1] || scan.blocked(last)};
+    node.ends = {ends[node.turned ? 1 : 0], ends[node.turned ? 0 : 1]};
+    node.end = node.end || ends[0] || ends[1];
+  }
   return node;
 }
 

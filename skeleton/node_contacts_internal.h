@@ -59,10 +59,12 @@ struct NodeContacts {
 
 /// Of those along the whole maximal free segment around [0, 1] of the scan's line, given
 /// by its points at 0 and 1; listed from the end with the smaller generators.  `end` says
-/// that the line may end at 0 or 1, and goes on from there only where it does not.
+/// that the line may end at 0 or 1.  Polygon mode: `grazes` says that an arc of solid
+/// mode ends there, and then the contacts are those of solid mode; else those at which
+/// the free segment ends are among them, where they are corners or edges.
 [[nodiscard]] NodeContacts contacts_along(const Generators& generators,
                                           const LineScan& scan,
-                                          const std::array<ExactPoint, 2>& line,
-                                          bool end);
+                                          const std::array<ExactPoint, 2>& line, bool end,
+                                          bool grazes);
 
 }  // namespace sightline::internal

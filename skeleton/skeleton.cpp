@@ -9,6 +9,7 @@
 #include "skeleton/eee_skeleton_internal.h"
 #include "skeleton/face_pairs_internal.h"
 #include "skeleton/line_key_internal.h"
+#include "skeleton/node_ends_internal.h"
 #include "skeleton/parallel_internal.h"
 #include "skeleton/vertex_view_internal.h"
 
@@ -20,6 +21,7 @@ using internal::EvPart;
 using internal::Generators;
 using internal::LineHash;
 using internal::LineKey;
+using internal::NodeEnds;
 using internal::VertexView;
 using internal::VertexViewer;
 
@@ -27,12 +29,12 @@ using internal::VertexViewer;
 // from every generator.
 class Joiner {
  public:
-  explicit Joiner(Skeleton& skeleton) : out_(skeleton) {}
+  Joiner(Skeleton& skeleton, NodeEnds& ends) : out_(skeleton), ends_(ends) {}
 
   void add(const VertexView& view) {
     std::vector<std::uint32_t> number(view.nodes.size());
     for (std::size_t i = 0; i < view.nodes.size(); ++i) {
-      number[i] = add_node(view, view.nodes[i]);
+      number[i] = add_node(view, view.nodes[i], view.grazes[i] != 0);
     }
     for (SkeletonArc arc : view.arcs) {
       for (auto& node : arc.nodes) node = number[node];
@@ -43,33 +45,32 @@ class Joiner {
   }
 
  private:
-  std::uint32_t add_node(const VertexView& view, SkeletonNode node) {
+  std::uint32_t add_node(const VertexView& view, SkeletonNode node, bool grazes) {
     const std::span<const Generator> generators(view.pool.data() + node.first_generator,
                                                 node.generator_count);
     const auto next = static_cast<std::uint32_t>(out_.nodes.size());
+    const bool solid = out_.events == EventMode::Solid;
+    std::uint32_t known = next;
     if (node.kind == NodeKind::FvE) {
-      const auto [at, fresh] = face_lines_.try_emplace(
-          internal::face_line_key(node.end, node.ends, generators), next);
-      if (!fresh) return at->second;
-    }
-    if (node.kind == NodeKind::VV || node.kind == NodeKind::Degenerate) {
+      const LineKey key = internal::face_line_key(solid && node.end, generators);
+      known = face_lines_.try_emplace(key, next).first->second;
+    } else if (node.kind == NodeKind::VV || node.kind == NodeKind::Degenerate) {
       std::vector<Generator> key(generators.begin(), generators.end());
       const std::vector<Generator> reversed(key.rbegin(), key.rend());
       key = std::min(key, reversed);
       if (node.kind == NodeKind::VV) {
         const std::uint64_t pair = (static_cast<std::uint64_t>(key[0].id) << 32) |
                                    static_cast<std::uint32_t>(key[1].id);
-        auto& known = node.end ? ends_ : pairs_;
-        const auto [at, fresh] = known.try_emplace(pair, next);
-        if (!fresh) return at->second;
+        known = (solid && node.end ? end_pairs_ : pairs_)
+                    .try_emplace(pair, next)
+                    .first->second;
       } else {
-        const auto [at, fresh] = lines_.try_emplace(std::move(key), next);
-        if (!fresh) {
-          // Found again from another contact: that the line ends at one of them counts.
-          out_.nodes[at->second].end |= node.end;
-          return at->second;
-        }
+        known = lines_.try_emplace(std::move(key), next).first->second;
       }
+    }
+    if (known != next) {
+      ends_.found(known, grazes, node.end, node.ends, generators);
+      return known;
     }
     node.first_generator = static_cast<std::uint32_t>(out_.generator_pool.size());
     out_.generator_pool.insert(out_.generator_pool.end(), generators.begin(),
@@ -81,22 +82,25 @@ class Joiner {
       std::swap(node.ends[0], node.ends[1]);
     }
     out_.nodes.push_back(node);
+    ends_.add(grazes);
     return next;
   }
 
   Skeleton& out_;
-  std::unordered_map<std::uint64_t, std::uint32_t> pairs_, ends_;
+  NodeEnds& ends_;
+  std::unordered_map<std::uint64_t, std::uint32_t> pairs_, end_pairs_;
   std::map<std::vector<Generator>, std::uint32_t> lines_;
   // FvE: several arcs may end at one line.
   std::unordered_map<LineKey, std::uint32_t, LineHash> face_lines_;
 };
 
 void build_ev(const Generators& generators, const SkeletonRequest& request,
-              Clock::time_point start, double progress_share, Skeleton& skeleton) {
+              Clock::time_point start, double progress_share, Skeleton& skeleton,
+              NodeEnds& ends) {
   const EvPart part = internal::ev_part(generators, request);
   const std::vector<int> stars = internal::asked_stars(generators, part);
   skeleton.vertices_asked = stars.size();
-  Joiner joiner(skeleton);
+  Joiner joiner(skeleton, ends);
   std::optional<SkeletonLines> lines;
   if (part.by_lines) lines.emplace(generators.scene());
   const SkeletonLines* pieces = lines ? &*lines : nullptr;
@@ -125,7 +129,9 @@ Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
   skeleton.predicates = internal::difference(thread_stage_counts(), before);
   skeleton.events = request.events;
   skeleton.simplified = internal::simplified_by(scene, request.feature_size);
-  build_ev(generators, request, start, 1, skeleton);
+  NodeEnds ends(skeleton);
+  build_ev(generators, request, start, 1, skeleton, ends);
+  ends.finish();
   return skeleton;
 }
 
@@ -139,8 +145,12 @@ Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
   skeleton.simplified = internal::simplified_by(scene, request.feature_size);
   const double share = !request.ev ? 0 : request.eee ? 0.3 : request.ff ? 0.9 : 1;
   const double last = request.ff ? (request.ev || request.eee ? 0.9 : 0) : 1;
-  if (request.ev) build_ev(generators, request, start, share, skeleton);
-  if (request.eee) internal::add_eee(generators, request, start, {share, last}, skeleton);
+  NodeEnds ends(skeleton);
+  if (request.ev) build_ev(generators, request, start, share, skeleton, ends);
+  if (request.eee) {
+    internal::add_eee(generators, request, start, {share, last}, skeleton, ends);
+  }
+  ends.finish();
   if (request.ff)
     internal::add_face_pairs(generators, request, start, {last, 1}, skeleton);
   return skeleton;

@@ -61,13 +61,13 @@ struct SkeletonNode {
   /// Two contacts are on one object (counted under "..._self").
   bool self = false;
   /// The first or the last contact is a corner at which the line enters its solid: the
-  /// line ends there rather than grazes (counted under "end").  In polygon mode: one of
-  /// `ends`.
+  /// line ends there rather than grazes (counted under "end").  Polygon mode: no node of
+  /// solid mode that grazes, docs/polygon_mode.md ("At a node").
   bool end = false;
   /// EEEE: which of the two lines through the four edges; Degenerate: which of two
   /// irrational lines through the same edges.
   bool second = false;
-  /// Polygon mode: the first, the last contact is an end contact.
+  /// Polygon mode: the free segment ends in the first, in the last contact.
   std::array<bool, 2> ends{};
   /// Generators in order along the line: `count` of them from Skeleton::generators().  VV
   /// begins with the smaller vertex, VEE and FvE with their vertex, others from the end

@@ -4,6 +4,8 @@
 #include <numeric>
 
 #include "skeleton/degenerate_pair_internal.h"
+#include "skeleton/drawn_internal.h"
+#include "skeleton/node_contacts_internal.h"
 #include "skeleton/occluder_shadow_internal.h"
 #include "skeleton/opposite_edges_internal.h"
 #include "skeleton/vertex_view_internal.h"
@@ -69,6 +71,18 @@ void VertexView::sort_arcs() {
   arcs = std::move(sorted_arcs);
   intervals = std::move(sorted_intervals);
   special_arcs = std::move(sorted_special);
+}
+
+void VertexView::find_grazes() {
+  grazes.assign(nodes.size(), 0);
+  const auto ends = [](const SkeletonArc& arc) { return arc.ends[0] || arc.ends[1]; };
+  for (const SkeletonArc& arc : arcs) {
+    if (ends(arc)) continue;
+    for (const std::uint32_t n : arc.nodes) grazes[n] = 1;
+  }
+  for (const LineUp& eve : line_ups) {
+    grazes[eve.node] = !ends(arcs[eve.arc]) && !ends(arcs[eve.other_arc]);
+  }
 }
 
 void VertexView::keep_arcs(const std::vector<std::uint8_t>& flags) {
@@ -273,6 +287,7 @@ VertexView VertexViewer::view(int star) {
   if (feature_size_ > 0) drop_short_arcs(out);
   if (part_.by_lines) drop_arcs_off_source(out);
   add_line_ups(out);
+  out.find_grazes();
   find_further_contacts(g_, *star_, probe_, out);
   out.line_ups = {};
   out.special = {};
@@ -378,11 +393,9 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   pair.mild = a == Sign::Zero || b == Sign::Zero;
   pair.degenerate = r.touched || star_->in_plane_only;
   pair.edge_ends = contact == EdgeContact::End;
-  pair.share_facet = g_.polygon() && std::any_of(pair.edge_facets.begin(),
-                                                 pair.edge_facets.end(), [&](int facet) {
-                                                   return contains(star_->facets, facet);
-                                                 });
-  if (pair.share_facet && pair.edge_ends) return;
+  pair.share_facet = g_.polygon() && share(r.all_facets, star_->facets);
+  // Those that end there are left out.
+  if (pair.share_facet && ((pair.edge_ends && !r.any_side) || !r.can_graze())) return;
   if (star_->convex) add_unsupported_convex(pair);
   if (pair.closed.covers_all()) return;
 
@@ -846,8 +859,9 @@ void VertexViewer::add_unsupported_general(Pair& pair) {
             });
       }
       if (!gap && !g_.polygon()) pair.close(from, to);
-      // Lines from inside the solid are blocked where they leave it.
-      if (!gap && g_.polygon()) {
+      if (!gap && g_.polygon() && !corner_drawn_between(from, to, line)) {
+        pair.close(from, to);
+      } else if (!gap && g_.polygon()) {
         const bool goes_on =
             !pair.ending.empty() &&
             compare(scene_, line, pair.ending.back().to, from) == Sign::Zero;
@@ -860,6 +874,14 @@ void VertexViewer::add_unsupported_general(Pair& pair) {
     }
     from = to;
   }
+}
+
+bool VertexViewer::corner_drawn_between(const Cut& from, const Cut& to,
+                                        const LineThrough& edge) const {
+  const Rational s = exact_parameter(scene_, edge, from);
+  const Rational t = exact_parameter(scene_, edge, to);
+  const ExactPoint x = along(exact_point(edge.from), exact_point(edge.to), (s + t) / 2);
+  return drawn_corner(g_, *star_, Eye(x));
 }
 
 // No two different cuts coincide at an end of an arc, and none is of an unknown feature.
@@ -978,7 +1000,8 @@ void VertexViewer::add_line_ups(VertexView& out) {
           {e0 + on_e.parameter() * (e1 - e0), f0 + on_f.parameter() * (f1 - f0)},
           {a.ends[1], b.ends[1]});
       out.special[node] = out.special_arcs[i] != 0 || out.special_arcs[j] != 0;
-      out.line_ups.push_back({node, static_cast<std::uint32_t>(i), on_e});
+      out.line_ups.push_back({node, static_cast<std::uint32_t>(i), on_e,
+                              static_cast<std::uint32_t>(j), on_f});
     }
   }
 }

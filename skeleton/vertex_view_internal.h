@@ -31,10 +31,14 @@ struct VertexView {
   std::vector<std::uint8_t> special;
   /// Of the arcs, while it is built: found among zero signs.
   std::vector<std::uint8_t> special_arcs;
-  /// EVE nodes, by a position on the edge of an arc.
+  /// Of the nodes: an arc of solid mode ends there, or for EVE nodes two line up.
+  std::vector<std::uint8_t> grazes;
+  /// EVE nodes, by positions on the edges of two arcs.
   struct LineUp {
     std::uint32_t node, arc;
     Cut cut;
+    std::uint32_t other_arc;
+    Cut other_cut;
   };
   std::vector<LineUp> line_ups;
 
@@ -43,6 +47,8 @@ struct VertexView {
                          const std::array<Point, 2>& segment,
                          const std::array<bool, 2>& ends = {});
   void sort_arcs();
+  /// Fills `grazes`.
+  void find_grazes();
   /// Leaves out the other arcs, and the nodes that only they end at.
   void keep_arcs(const std::vector<std::uint8_t>& kept);
 };
@@ -86,6 +92,8 @@ class VertexViewer {
                                       std::span<const Sign> signs) const;
   void add_unsupported_convex(Pair& pair);
   void add_unsupported_general(Pair& pair);
+  [[nodiscard]] bool corner_drawn_between(const Cut& from, const Cut& to,
+                                          const LineThrough& edge) const;
   void split_at_ends(Pair& pair, std::vector<CutInterval>& open) const;
   [[nodiscard]] bool ends_are_simple(const Pair& pair,
                                      std::span<const CutInterval> open) const;

@@ -72,7 +72,9 @@ inline CanonicalSkeleton canonical(const Scene& scene, const Skeleton& skeleton,
   };
 
   const auto mark = [](std::vector<GeneratorKey>& along, const std::array<bool, 2>& end) {
-    const auto lower = [](char& kind) { kind = kind == 'V' ? 'v' : 'e'; };
+    const auto lower = [](char& kind) {
+      kind = kind == 'V' ? 'v' : kind == 'E' ? 'e' : 'f';
+    };
     if (end[0]) lower(along.front().kind);
     if (end[1]) lower(along.back().kind);
   };
@@ -82,7 +84,8 @@ inline CanonicalSkeleton canonical(const Scene& scene, const Skeleton& skeleton,
     for (const Generator& g : skeleton.generators(node)) {
       along_line.push_back(generator_key(g));
     }
-    mark(along_line, node.ends);
+    // Within a contact of a degenerate line generators are in no order of their own.
+    if (node.kind != NodeKind::Degenerate) mark(along_line, node.ends);
     by_id.push_back(node_key(
         node_name(node.kind) + (node.self ? "_self" : "") + (node.end ? "_end" : ""),
         std::move(along_line)));
