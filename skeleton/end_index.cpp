@@ -63,6 +63,7 @@ EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& 
       pieces_.push_back({end.range[0], facets});
     }
     piece_starts_.push_back(static_cast<std::uint32_t>(pieces_.size()));
+    bounds_all_.push_back(!ends.empty() && ends.front().bounds_all);
   };
 
   struct Nothing {};
@@ -90,6 +91,7 @@ EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& 
       });
   complete_ = piece_starts_.size() == count + 1;
   piece_starts_.resize(count + 1, static_cast<std::uint32_t>(pieces_.size()));
+  bounds_all_.resize(count, false);
   pieces_.shrink_to_fit();
   facet_pairs_ = grouped(by_facets);
   object_pairs_ = grouped(by_objects);
@@ -138,7 +140,7 @@ double EndIndex::end_of(const ArcRef& arc, std::size_t piece) const {
 
 std::size_t EndIndex::bytes() const {
   std::size_t sum = sizeof *this + piece_starts_.capacity() * sizeof(std::uint32_t) +
-                    pieces_.capacity() * sizeof(Piece);
+                    pieces_.capacity() * sizeof(Piece) + bounds_all_.capacity() / 8;
   for (const Pairs* pairs : {&facet_pairs_, &object_pairs_, &facets_}) {
     sum += pairs->keys.capacity() * sizeof(std::uint64_t) +
            pairs->starts.capacity() * sizeof(std::uint32_t) +

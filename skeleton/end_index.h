@@ -41,6 +41,11 @@ class EndIndex {
   [[nodiscard]] std::span<const Piece> pieces(const ArcRef& arc) const;
   /// Where the piece with that number ends.
   [[nodiscard]] double end_of(const ArcRef& arc, std::size_t piece) const;
+  /// Certain that no line of the arc, those where pieces meet and at its ends included,
+  /// goes on farther than its pieces say (SkeletonLines::EndPiece::bounds_all).
+  [[nodiscard]] bool bounds_all(const ArcRef& arc) const {
+    return bounds_all_[number(arc)];
+  }
 
   /// Arcs with a line that runs from one facet to the other, in either direction; each
   /// once, EV first.
@@ -85,6 +90,7 @@ class EndIndex {
   const Skeleton& skeleton_;
   std::vector<std::uint32_t> piece_starts_;
   std::vector<Piece> pieces_;
+  std::vector<bool> bounds_all_;
   Pairs facet_pairs_, object_pairs_, facets_;
   bool complete_ = true;
 };

@@ -164,6 +164,8 @@ class Envelope {
       if (!out.empty()) out.back().range[1] = piece.range[0];
       out.push_back(piece);
     }
+    const bool bounds_all = !merged_ && !any_gap();
+    for (FarPiece& piece : out) piece.bounds_all = bounds_all;
     return out;
   }
 
@@ -189,6 +191,7 @@ class Envelope {
           i > 0 && family_.compare(cut(order[i - 1]), cut(order[i])) == Sign::Zero;
       if (!same) {
         const double s = family_.rounded(cut(order[i]));
+        merged_ = merged_ || (!family_.is_limit(cut(order[i])) && near_range_end(s));
         if (s >= range_[1] - kShortestPiece) {
           slot = kEnd;
         } else if (s > range_[0] + kShortestPiece) {
@@ -204,6 +207,38 @@ class Envelope {
       first_[i] = std::min(end, slots[2 * i]);
       last_[i] = std::min(end, slots[2 * i + 1]);
     }
+  }
+
+  [[nodiscard]] bool near_range_end(double s) const {
+    return std::abs(s - range_[0]) <= kShortestPiece ||
+           std::abs(s - range_[1]) <= kShortestPiece;
+  }
+
+  // Between two stretches neither of whose nearest faces goes on beyond the cut there is
+  // a line that may touch both and end on neither; and a stretch that is left out may
+  // reach farther than others.
+  [[nodiscard]] bool any_gap() const {
+    for (std::size_t k = 0; k + 1 < at_.size(); ++k) {
+      if (too_short(k)) return true;
+      for (int w = 0; w < 2 && k > 0; ++w) {
+        if (!closed_at(nearest_[w][k - 1], nearest_[w][k], static_cast<int>(k))) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  // Whether the line at the cut k ends where one of the lines beside it do.
+  [[nodiscard]] bool closed_at(int before, int after, int k) const {
+    if (before < 0 || after < 0 || last_[before] > k || first_[after] < k) return true;
+    // It enters a convex solid where two of its faces meet.
+    const auto& m = met_[before];
+    const auto& n = met_[after];
+    const int object = g_.scene().faces()[m.face].object;
+    return object == g_.scene().faces()[n.face].object && g_.convex_solid(object) &&
+           m.near == Sign::Positive && n.near == Sign::Positive &&
+           family_.same_side(m.to, n.from);
   }
 
   [[nodiscard]] bool too_short(std::size_t k) const {
@@ -243,6 +278,7 @@ class Envelope {
   std::vector<double> at_;
   std::vector<int> first_, last_;  // of each met part, positions in at_
   std::array<std::vector<int>, 2> nearest_;
+  bool merged_ = false;  // some cut was taken for an end of the range
 };
 
 bool too_short(const std::array<double, 2>& range) {
@@ -275,6 +311,14 @@ class EvFamily {
   [[nodiscard]] Sign compare(const Cut& a, const Cut& b) const {
     if (a.kind == b.kind && a.plane == b.plane) return Sign::Zero;
     return internal::compare(scene_, {e0_, e1_}, a, b);
+  }
+  // No side of a face cuts there, but the family ends.
+  [[nodiscard]] static bool is_limit(const Cut& cut) {
+    return cut.kind == CutKind::Start || cut.kind == CutKind::End;
+  }
+  // Of two cuts in one place, and a convex solid met before and after.
+  [[nodiscard]] static bool same_side(const Cut& /*a*/, const Cut& /*b*/) {
+    return true;  // its section with the plane of all lines is convex
   }
   [[nodiscard]] double rounded(const Cut& cut) const {
     return rounded_parameter(scene_, {e0_, e1_}, cut);
@@ -425,6 +469,14 @@ class EeeFamily {
   [[nodiscard]] Sign compare(const CurveCut& a, const CurveCut& b) const {
     return curve_.compare(a, b);
   }
+  [[nodiscard]] static bool is_limit(const CurveCut& cut) {
+    return cut.kind == CurveCutKind::Start || cut.kind == CurveCutKind::End;
+  }
+  [[nodiscard]] static bool same_side(const CurveCut& a, const CurveCut& b) {
+    return a.same_as(b);
+  }
+  // Some part was too short to tell where it lies.
+  [[nodiscard]] bool left_out() const { return left_out_; }
   [[nodiscard]] double rounded(const CurveCut& cut) const { return curve_.rounded(cut); }
   [[nodiscard]] std::optional<std::array<ExactPoint, 2>> line(double s) const {
     return curve_.points_at(Rational(s));
@@ -538,12 +590,18 @@ class EeeFamily {
   }
 
   // Of the face's plane that the first contact is on, in the middle of a part.
-  [[nodiscard]] std::optional<Sign> side_of(int face, const CurveInterval& part) const {
+  [[nodiscard]] std::optional<Sign> side_of(int face, const CurveInterval& part) {
     const double a = std::max(range_[0], rounded(part.from));
     const double b = std::min(range_[1], rounded(part.to));
-    if (b - a < kShortestPiece) return std::nullopt;
+    if (b - a < kShortestPiece) {
+      left_out_ = left_out_ || b - a > -kShortestPiece;  // else wholly off the arc
+      return std::nullopt;
+    }
     const auto x = line(a + 0.5 * (b - a));
-    if (!x) return std::nullopt;
+    if (!x) {
+      left_out_ = true;
+      return std::nullopt;
+    }
     const auto ids = plane_points(scene_, face);
     const Rational side =
         exact_orient(exact_point(scene_.point(ids[0])), exact_point(scene_.point(ids[1])),
@@ -563,6 +621,7 @@ class EeeFamily {
   CurveCut to_ = curve_end();
   Sign f0_ = Sign::Zero;
   double last_error_ = 0;
+  bool left_out_ = false;
   std::vector<CurveInterval> parts_, next_;
   std::vector<BoundedForm> forms_;
 };
@@ -626,7 +685,11 @@ std::optional<std::vector<FarPiece>> FarPieces::of(const EeeArc& arc) const {
   if (family.touched() || !family.prepare()) return std::nullopt;
   std::vector<Met<CurveCut>> met;
   if (!add_beyond(g_, chains_of(family, arc.range), family, met)) return std::nullopt;
-  return Envelope<EeeFamily>(g_, family, met, arc.range).pieces();
+  auto pieces = Envelope<EeeFamily>(g_, family, met, arc.range).pieces();
+  if (pieces && family.left_out()) {
+    for (FarPiece& piece : *pieces) piece.bounds_all = false;
+  }
+  return pieces;
 }
 
 std::vector<double> FarPieces::stops(const EeeArc& arc) const {

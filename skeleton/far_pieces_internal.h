@@ -27,6 +27,9 @@ struct FarPiece {
   /// Before the first contact (the vertex of an EV arc), beyond the last; -1 for the
   /// outside.
   std::array<int, 2> faces;
+  /// Certain that no line of the arc goes on farther than this and the neighbouring
+  /// pieces say: not one where two pieces meet either, nor one at an end of the arc.
+  bool bounds_all = false;
 };
 
 /// Parts shorter than this are left out: their ends are not told apart.

@@ -255,6 +255,7 @@ std::vector<SkeletonLines::EndPiece> ends_of(
   for (const auto& piece : found) {
     SkeletonLines::EndPiece& end = out.emplace_back();
     end.range = piece.range;
+    end.bounds_all = piece.bounds_all;
     for (int i = 0; i < 2; ++i) {
       if (piece.faces[i] >= 0) end.faces[i].push_back(piece.faces[i]);
     }

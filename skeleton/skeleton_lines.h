@@ -49,6 +49,10 @@ class SkeletonLines {
   struct EndPiece {
     std::array<double, 2> range;
     std::array<std::vector<int>, 2> faces;
+    /// Certain that no line of the arc goes on farther than this and the neighbouring
+    /// pieces say, the lines where two pieces meet and those at the arc's ends included:
+    /// these may graze past both in degenerate positions.
+    bool bounds_all = false;
   };
   /// What pieces() says of the far ends.  Cost: some 10 microseconds where no sign is
   /// zero; else that of pieces() on every part where anything could change.

@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <optional>
 
 #include "linespace/transversals.h"
 #include "linespace/transversals_internal.h"
+#include "skeleton/arc_index_internal.h"
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/eee_curve_internal.h"
@@ -438,11 +440,55 @@ struct ViewEvents::Impl {
     return plane_sign_at(*x.line, path.line(), y.plane) * PlaneSide(y.plane)(path.b);
   }
 
+  // ---- All of a path ------------------------------------------------------------------
+
+  [[nodiscard]] static Path path_between(const Point& a, const Point& b) {
+    for (const Point& p : {a, b}) {
+      for (const double x : p) {
+        if (!is_admissible(x))
+          throw InvalidInput("a viewpoint's coordinate is not usable");
+      }
+    }
+    if (a == b) throw InvalidInput("the path's two ends are the same point");
+    return {a, b};
+  }
+
+  [[nodiscard]] const internal::ArcIndex& arc_index() const {
+    std::call_once(index_once, [&] { index.emplace(scene, skeleton, ends); });
+    return *index;
+  }
+
+  void cross_number(const Path& path, std::size_t number, std::vector<Found>& out) const {
+    const std::size_t ev = skeleton.arcs.size();
+    if (number < ev) {
+      cross_ev(path, static_cast<std::uint32_t>(number), out);
+    } else {
+      cross_eee(path, static_cast<std::uint32_t>(number - ev), out);
+    }
+  }
+
+  [[nodiscard]] static std::vector<ViewEvent> in_order(const Path& path,
+                                                       std::vector<Found> found) {
+    std::sort(found.begin(), found.end(), [&](const Found& x, const Found& y) {
+      const Sign order = compare(path, x, y);
+      if (order != Sign::Zero) return order == Sign::Negative;
+      return std::pair(x.event.kind, x.event.id) < std::pair(y.event.kind, y.event.id);
+    });
+    std::vector<ViewEvent> events;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      events.push_back(found[i].event);
+      events.back().tie = i > 0 && compare(path, found[i - 1], found[i]) == Sign::Zero;
+    }
+    return events;
+  }
+
   const Scene& scene;
   const Skeleton& skeleton;
   const EndIndex& ends;
   internal::Generators generators;
   internal::Carriers carriers;
+  mutable std::once_flag index_once;
+  mutable std::optional<internal::ArcIndex> index;
 };
 
 ViewEvents::ViewEvents(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends)
@@ -451,34 +497,34 @@ ViewEvents::~ViewEvents() = default;
 ViewEvents::ViewEvents(ViewEvents&&) noexcept = default;
 
 std::vector<ViewEvent> ViewEvents::crossed(const Point& a, const Point& b) const {
-  for (const Point& p : {a, b}) {
-    for (const double x : p) {
-      if (!is_admissible(x)) throw InvalidInput("a viewpoint's coordinate is not usable");
-    }
-  }
-  if (a == b) throw InvalidInput("the path's two ends are the same point");
-  const Impl::Path path{a, b};
+  const Impl::Path path = Impl::path_between(a, b);
   std::vector<Found> found;
-  for (std::uint32_t i = 0; i < impl_->skeleton.arcs.size(); ++i) {
-    impl_->cross_ev(path, i, found);
-  }
-  for (std::uint32_t i = 0; i < impl_->skeleton.eee_arcs.size(); ++i) {
-    impl_->cross_eee(path, i, found);
+  if (const auto near = impl_->arc_index().near(a, b)) {
+    for (const std::uint32_t i : *near) impl_->cross_number(path, i, found);
+  } else {
+    const std::size_t count =
+        impl_->skeleton.arcs.size() + impl_->skeleton.eee_arcs.size();
+    for (std::size_t i = 0; i < count; ++i) impl_->cross_number(path, i, found);
   }
   impl_->cross_facets(path, found);
-  std::sort(found.begin(), found.end(), [&](const Found& x, const Found& y) {
-    const Sign order = Impl::compare(path, x, y);
-    if (order != Sign::Zero) return order == Sign::Negative;
-    return std::pair(x.event.kind, x.event.id) < std::pair(y.event.kind, y.event.id);
-  });
-  std::vector<ViewEvent> events;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    events.push_back(found[i].event);
-    events.back().tie =
-        i > 0 && Impl::compare(path, found[i - 1], found[i]) == Sign::Zero;
-  }
-  return events;
+  return Impl::in_order(path, std::move(found));
 }
+
+std::vector<ViewEvent> ViewEvents::crossed(const Point& a, const Point& b,
+                                           std::span<const ArcRef> arcs) const {
+  const Impl::Path path = Impl::path_between(a, b);
+  std::vector<Found> found;
+  for (const ArcRef& arc : arcs) {
+    if (arc.kind == ArcKind::EV) {
+      impl_->cross_ev(path, arc.id, found);
+    } else {
+      impl_->cross_eee(path, arc.id, found);
+    }
+  }
+  return Impl::in_order(path, std::move(found));
+}
+
+std::size_t ViewEvents::index_bytes() const { return impl_->arc_index().bytes(); }
 
 std::vector<ViewEvent> ViewEvents::separating(const Point& a, const Point& b) const {
   std::vector<ViewEvent> events = crossed(a, b);

@@ -8,8 +8,10 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "skeleton/end_index.h"
@@ -53,9 +55,17 @@ class ViewEvents {
   /// sides: one that shows other parts only is not found.  A facet that is flat only by
   /// tolerance counts with the plane of its first face.
   ///
-  /// Throws InvalidInput when a coordinate is not admissible or a == b.  Cost: some 100
-  /// nanoseconds an arc, and 1 (EV) to 100 (EEE, F) microseconds an event.
+  /// Throws InvalidInput when a coordinate is not admissible or a == b.  Cost: 25
+  /// nanoseconds a facet, some 200 an arc near the path, and 1 (EV) to 100 (EEE, F)
+  /// microseconds an event.  The first call builds an index of all arcs by space, on all
+  /// cores: about two microseconds and 130 bytes an arc.
   [[nodiscard]] std::vector<ViewEvent> crossed(const Point& a, const Point& b) const;
+  /// Of these arcs only, and no facets; asks each of them, and needs no index.
+  [[nodiscard]] std::vector<ViewEvent> crossed(const Point& a, const Point& b,
+                                               std::span<const ArcRef> arcs) const;
+
+  /// Bytes of the index of arcs, which this builds if need be.
+  [[nodiscard]] std::size_t index_bytes() const;
 
   /// The events that separate two viewpoints: those that the segment between them crosses
   /// an odd number of times, each with its first crossing, in order.  EV and F events are

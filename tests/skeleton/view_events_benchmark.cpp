@@ -3,8 +3,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
+#include <vector>
 
 #include "linespace/scene.h"
 #include "skeleton/view_events.h"
@@ -86,19 +89,86 @@ void BM_arcs_of_generator(benchmark::State& state) {
 }
 BENCHMARK(BM_arcs_of_generator);
 
-// A path of that share of the scene's diagonal, at its middle.
+// Paths of one in that many of the scene's diagonal, at random places and in random
+// directions.
+std::vector<std::array<Point, 2>> paths(std::int64_t share) {
+  const auto& bounds = data().scene.bounds();
+  const Point size = bounds[1] - bounds[0];
+  testing::Random random(7);
+  const auto point = [&](double margin) {
+    Point p;
+    for (int i = 0; i < 3; ++i) {
+      p[i] = bounds[0][i] + size[i] * random.uniform(margin, 1 - margin);
+    }
+    return p;
+  };
+  std::vector<std::array<Point, 2>> out;
+  for (int i = 0; i < 32; ++i) {
+    const Point a = point(0.2);
+    const Point way = (point(0) - a).normalized() * size.norm();
+    out.push_back({a, a + way / static_cast<double>(share)});
+  }
+  return out;
+}
+
+void report(benchmark::State& state, std::size_t events) {
+  state.counters["events"] =
+      static_cast<double>(events) / static_cast<double>(state.iterations());
+}
+
 void BM_crossed(benchmark::State& state) {
   const auto& d = data();
-  const auto& bounds = d.scene.bounds();
-  const Point middle = 0.5 * (bounds[0] + bounds[1]);
-  const Point way = (bounds[1] - bounds[0]) / static_cast<double>(state.range(0));
-  std::size_t events = 0;
+  const auto all = paths(state.range(0));
+  state.counters["index_MB"] = static_cast<double>(d.events.index_bytes()) * 1e-6;
+  std::size_t events = 0, i = 0;
   for (auto _ : state) {
-    events = d.events.crossed(middle, middle + way).size();
+    const auto& [a, b] = all[i++ % all.size()];
+    events += d.events.crossed(a, b).size();
   }
-  state.counters["events"] = static_cast<double>(events);
+  report(state, events);
 }
-BENCHMARK(BM_crossed)->Arg(100000)->Arg(100)->Arg(10)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_crossed)
+    ->Arg(1000000)
+    ->Arg(1000)
+    ->Arg(100)
+    ->Arg(10)
+    ->Arg(2)
+    ->Unit(benchmark::kMicrosecond);
+
+// The same, facets left out, without the index: every arc is asked.
+void BM_crossed_asking_all(benchmark::State& state) {
+  const auto& d = data();
+  const auto all = paths(state.range(0));
+  std::vector<ArcRef> arcs;
+  for (std::uint32_t i = 0; i < d.skeleton.arcs.size(); ++i) {
+    arcs.push_back({ArcKind::EV, i});
+  }
+  for (std::uint32_t i = 0; i < d.skeleton.eee_arcs.size(); ++i) {
+    arcs.push_back({ArcKind::EEE, i});
+  }
+  std::size_t events = 0, i = 0;
+  for (auto _ : state) {
+    const auto& [a, b] = all[i++ % all.size()];
+    events += d.events.crossed(a, b, arcs).size();
+  }
+  report(state, events);
+}
+BENCHMARK(BM_crossed_asking_all)
+    ->Arg(1000000)
+    ->Arg(1000)
+    ->Arg(100)
+    ->Arg(10)
+    ->Arg(2)
+    ->Unit(benchmark::kMicrosecond);
+
+void BM_build_index(benchmark::State& state) {
+  const auto& d = data();
+  for (auto _ : state) {
+    const ViewEvents events(d.scene, d.skeleton, d.ends);
+    benchmark::DoNotOptimize(events.index_bytes());
+  }
+}
+BENCHMARK(BM_build_index)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 }  // namespace
 }  // namespace sightline
