@@ -301,6 +301,15 @@ bool is_free(const LineScan& scan) {
   return true;
 }
 
+bool free_between(const LineScan& scan) {
+  for (int c = 0; c < scan.size(); ++c) {
+    if (scan.to(c) <= 0 || scan.from(c) >= 1) continue;
+    const bool within = scan.from(c) > 0 && scan.to(c) < 1;
+    if (within ? scan.blocked(c) : scan.blocked_between(c, 0, 1)) return false;
+  }
+  return true;
+}
+
 std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
                                                 const LineScan& scan) {
   std::array<bool, 2> ends{};

@@ -26,6 +26,9 @@ namespace sightline::internal {
 /// No contact blocks the closed segment [0, 1] of the line.
 [[nodiscard]] bool is_free(const LineScan& scan);
 
+/// No contact blocks the open part of the line between its positions 0 and 1.
+[[nodiscard]] bool free_between(const LineScan& scan);
+
 /// Whether the contact at 0, that at 1 blocks the closed segment [0, 1]; nullopt when
 /// some contact blocks it strictly in between.
 /// A part of the line that runs between two faces of closed objects that touch each other

@@ -11,6 +11,7 @@
 #include "linespace/transversals_internal.h"
 #include "skeleton/arc_index_internal.h"
 #include "skeleton/edge_cuts_internal.h"
+#include "skeleton/edge_on_view_internal.h"
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/eee_curve_internal.h"
 #include "skeleton/far_pieces_internal.h"
@@ -23,6 +24,7 @@ using internal::along;
 using internal::exact_orient;
 using internal::exact_point;
 using internal::ExactPoint;
+using internal::free_between;
 using internal::LineScan;
 using internal::Rational;
 using internal::Ring;
@@ -75,16 +77,6 @@ Answer inside(const Enclosure& s, const std::array<double, 2>& range) {
   if (s.lo > range[0] + kRangeError && s.hi < range[1] - kRangeError) return Answer::Yes;
   if (s.hi < range[0] - kRangeError || s.lo > range[1] + kRangeError) return Answer::No;
   return Answer::Unknown;
-}
-
-// No contact blocks the open part of the line between its positions 0 and 1.
-bool free_between(const LineScan& scan) {
-  for (int c = 0; c < scan.size(); ++c) {
-    if (scan.to(c) <= 0 || scan.from(c) >= 1) continue;
-    const bool within = scan.from(c) > 0 && scan.to(c) < 1;
-    if (within ? scan.blocked(c) : scan.blocked_between(c, 0, 1)) return false;
-  }
-  return true;
 }
 
 struct Found {
@@ -373,11 +365,14 @@ struct ViewEvents::Impl {
     const std::vector<std::uint8_t> pierced = pierced_facets(path);
     for (std::size_t i = 0; i < scene.facets().size(); ++i) {
       if (pierced[i] != 0) continue;
-      const PlaneThrough plane = facet_plane(static_cast<int>(i));
-      const PlaneSide side(plane);
+      const PlaneSide& side = generators.face_plane(scene.facets()[i].faces.front());
       const Sign at_a = side(path.a);
       if (at_a == Sign::Zero || side(path.b) != -at_a) continue;
-      if (!seen_edge_on(path, static_cast<int>(i), plane)) continue;
+      const PlaneThrough plane = facet_plane(static_cast<int>(i));
+      if (!internal::sees_edge_on(generators, static_cast<int>(i), plane, path.a,
+                                  path.b)) {
+        continue;
+      }
       const internal::Cut u = internal::make_cut(internal::CutKind::Side, -1, {},
                                                  side.value(path.a), side.value(path.b));
       out.push_back({{EventKind::F, static_cast<std::uint32_t>(i), 0, false,
@@ -400,32 +395,6 @@ struct ViewEvents::Impl {
       }
     }
     return out;
-  }
-
-  [[nodiscard]] bool seen_edge_on(const Path& path, int facet,
-                                  const PlaneThrough& plane) const {
-    const ExactPoint p0 = exact_point(plane.a);
-    const ExactPoint p1 = exact_point(plane.b);
-    const ExactPoint p2 = exact_point(plane.c);
-    const ExactPoint a = exact_point(path.a);
-    const ExactPoint b = exact_point(path.b);
-    const Rational at_a = exact_orient(p0, p1, p2, a);
-    const Rational at_b = exact_orient(p0, p1, p2, b);
-    const ExactPoint x = along(a, b, at_a / (at_a - at_b));
-    const auto sees = [&](const ExactPoint& w) {
-      const auto faces = faces_near_line(generators, rounded(x), rounded(w));
-      return free_between(LineScan(scene, faces, x, w));
-    };
-    for (const int f : scene.facets()[facet].faces) {
-      const auto corners = scene.face_points(f);
-      for (std::size_t k = 0; k < corners.size(); ++k) {
-        const ExactPoint w = exact_point(scene.point(corners[k]));
-        const ExactPoint next =
-            exact_point(scene.point(corners[(k + 1) % corners.size()]));
-        if (sees(w) || sees(along(w, next, Rational(1) / 2))) return true;
-      }
-    }
-    return false;
   }
 
   // ---- Order --------------------------------------------------------------------------

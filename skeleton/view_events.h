@@ -51,9 +51,10 @@ class ViewEvents {
   /// Every crossing is decided by exact signs on the input, and so is the order; the
   /// ranges and pieces of arcs, which are rounded, only where they are certain.  Arcs of
   /// one pair or triple of generators that are closer than 2^-39 of the edge are not told
-  /// apart.  The facet seen edge-on is tested at its corners and the middles of its
-  /// sides: one that shows other parts only is not found.  A facet that is flat only by
-  /// tolerance counts with the plane of its first face.
+  /// apart.  A facet is seen edge-on where an open piece of its sides is: what touches
+  /// its plane from one side, or lies in it, does not hide it, and single points between
+  /// two that touch do not show it.  A facet that is flat only by tolerance counts with
+  /// the plane of its first face.
   ///
   /// Throws InvalidInput when a coordinate is not admissible or a == b.  Cost: 25
   /// nanoseconds a facet, some 200 an arc near the path, and 1 (EV) to 100 (EEE, F)
