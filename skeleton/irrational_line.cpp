@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <optional>
 
 #include "linespace/transversals_internal.h"
@@ -93,6 +94,26 @@ class IrrationalScan {
     return front && back;
   }
 
+  /// The point, rounded: each coordinate is off by at most kQuotientError of itself.
+  [[nodiscard]] Point point(int contact) const {
+    const Meeting& m = meetings_[starts_[contact]];
+    Point out;
+    for (int i = 0; i < 3; ++i) out[i] = quotient(m.x[i], m.w, c_.radicand);
+    return out;
+  }
+
+  /// By face id.
+  [[nodiscard]] std::vector<Touch> touches(int contact) const {
+    std::vector<Touch> out;
+    for (std::size_t i = starts_[contact]; i < starts_[contact + 1]; ++i) {
+      const Meeting& m = meetings_[i];
+      const bool at_edge = m.side >= 0 && scene_.edge_of_side(m.face, m.side) >= 0;
+      out.push_back({m.face, at_edge ? TouchKind::Edge : TouchKind::Interior,
+                     at_edge ? m.side : -1});
+    }
+    return out;
+  }
+
   /// Sign of (parameter on the edge) - (that of the other line of the two); Zero when
   /// they meet it in one point.
   [[nodiscard]] Sign beyond_other(int contact, int edge) const {
@@ -177,20 +198,84 @@ class IrrationalScan {
   std::vector<std::size_t> starts_;
 };
 
-}  // namespace
+Point contact_of(const Generators& g, const ExactLine& line, int edge) {
+  const auto& p = g.scene().edges()[edge].points;
+  return line.contact({g.scene().point(p[0]), g.scene().point(p[1])}).point;
+}
 
-NodeContacts contacts_along(const Generators& g, const ExactLine& line,
-                            const std::array<int, 2>& outer, bool grazes) {
-  const auto contact_with = [&](int edge) {
-    const auto& p = g.scene().edges()[edge].points;
-    return line.contact({g.scene().point(p[0]), g.scene().point(p[1])}).point;
-  };
+IrrationalScan scan_of(const Generators& g, const ExactLine& line,
+                       const std::array<int, 2>& outer) {
   IrrationalScan scan(g, line);
   for (const int face :
-       faces_near_line(g, contact_with(outer[0]), contact_with(outer[1]))) {
+       faces_near_line(g, contact_of(g, line, outer[0]), contact_of(g, line, outer[1]))) {
     scan.add(face);
   }
   scan.sort();
+  return scan;
+}
+
+// The contact that has the edge, -1 for none.
+int find_contact(const Generators& g, const IrrationalScan& scan, int edge) {
+  const int ridge = g.ridge_of_edge(edge);
+  const Generator wanted{GeneratorKind::Edge, ridge < 0 ? edge : g.ridges()[ridge].edge};
+  for (int i = 0; i < scan.size(); ++i) {
+    const auto here = scan.generators(i);
+    if (std::find(here.begin(), here.end(), wanted) != here.end()) return i;
+  }
+  return -1;
+}
+
+}  // namespace
+
+std::optional<FreeSegment> free_segment(const Generators& g, const ExactLine& line,
+                                        const std::array<int, 2>& outer) {
+  const IrrationalScan scan = scan_of(g, line, outer);
+  const int first = find_contact(g, scan, outer[0]);
+  const int last = find_contact(g, scan, outer[1]);
+  if (first < 0 || last < 0 || first == last) return std::nullopt;
+  const int step = first < last ? 1 : -1;
+  for (int i = first + step; i != last; i += step) {
+    if (scan.blocked(i)) return std::nullopt;
+  }
+  const Point start = scan.point(first);
+  const Point way = scan.point(last) - start;
+  const auto position = [&](int i) {
+    if (i == first || i == last) return i == first ? 0.0 : 1.0;
+    return (scan.point(i) - start).dot(way) / way.squaredNorm();
+  };
+  const auto faces = [&](int i) {
+    std::vector<int> out;
+    for (const Touch& t : scan.touches(i)) out.push_back(t.face);
+    return out;
+  };
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  FreeSegment out{-kInfinity, kInfinity, {}, {}, {}};
+  // From the outer contacts on, away from each other, to what blocks.
+  const auto end_of = [&](int from, int towards, double& at, std::vector<int>& ended_by) {
+    int reached = from;
+    for (int i = from; i >= 0 && i < scan.size(); i += towards) {
+      if (scan.blocked(i)) {
+        at = position(i);
+        ended_by = faces(i);
+        break;
+      }
+      reached = i;
+    }
+    return reached;
+  };
+  const int low = end_of(first, -step, out.from, out.from_faces);
+  const int high = end_of(last, step, out.to, out.to_faces);
+  for (int i = low; i != high + step; i += step) {
+    const double at = position(i);
+    out.contacts.push_back({at, at, scan.blocked(i), scan.touches(i)});
+  }
+  return out;
+}
+
+NodeContacts contacts_along(const Generators& g, const ExactLine& line,
+                            const std::array<int, 2>& outer, bool grazes) {
+  const auto contact_with = [&](int edge) { return contact_of(g, line, edge); };
+  const IrrationalScan scan = scan_of(g, line, outer);
   std::vector<std::vector<Generator>> contacts;
   std::array<int, 2> at{-1, -1};
   for (int i = 0; i < scan.size(); ++i) {

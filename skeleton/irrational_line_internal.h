@@ -28,4 +28,13 @@ namespace sightline::internal {
                                           const ExactLine& line,
                                           const std::array<int, 2>& outer, bool grazes);
 
+/// The maximal free segment around the contacts with these two edges, positions 0 and 1,
+/// whose rounded points are given; nullopt where a contact between them blocks.  An outer
+/// contact that blocks ends it, and is among the contacts.  Faces and order are exact,
+/// positions are off by at most 2^-44 times the size of the scene's coordinates, by the
+/// distance of the two points.
+[[nodiscard]] std::optional<FreeSegment> free_segment(const Generators& generators,
+                                                      const ExactLine& line,
+                                                      const std::array<int, 2>& outer);
+
 }  // namespace sightline::internal

@@ -7,7 +7,9 @@
 
 #include "skeleton/degenerate_pair_internal.h"
 #include "skeleton/far_pieces_internal.h"
+#include "skeleton/irrational_line_internal.h"
 #include "skeleton/node_contacts_internal.h"
+#include "skeleton/node_line_internal.h"
 
 namespace sightline {
 namespace {
@@ -61,6 +63,7 @@ FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends =
     if (c >= scan.size() || scan.from(c) > 0) continue;
     const bool through = scan.to(c) >= 0;
     if (through && ends[0]) {
+      out.contacts.push_back({0, 0, true, scan.touches(c)});
       out.from = 0;
       out.from_faces = scan.faces_at(c, 0);
       break;
@@ -86,6 +89,7 @@ FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends =
   for (int c = low + 1; c < scan.size(); ++c) {
     if (ends[0] && scan.from(c) <= 0 && scan.to(c) <= 0) continue;
     if (ends[1] && scan.from(c) <= 1 && scan.to(c) >= 1) {
+      out.contacts.push_back({1, 1, true, scan.touches(c)});
       out.to = 1;
       out.to_faces = scan.faces_at(c, 1);
       break;
@@ -135,6 +139,53 @@ struct SkeletonLines::Impl {
     const Rational y = internal::exact_orient(a, b, c, e1);
     if (x == y) return std::nullopt;
     return along(e0, e1, x / (x - y));
+  }
+
+  // The rational line of a node through two points, from its first contact on.
+  [[nodiscard]] std::optional<FreeSegment> node_line(const std::array<ExactPoint, 2>& at,
+                                                     const SkeletonNode& node) const {
+    const auto& [a, b] = at;
+    const auto faces = faces_near_line(generators, node.segment[0], node.segment[1]);
+    const auto outer = outer_positions(LineScan(scene, faces, a, b), at, node);
+    if (outer[0] == outer[1]) return std::nullopt;
+    const LineScan scan(scene, faces, along(a, b, outer[0]), along(a, b, outer[1]));
+    std::array<bool, 2> ends = node.ends;
+    const bool told = ends[0] || ends[1];
+    if (node.end && (!told || node.kind == NodeKind::Degenerate)) {
+      const auto blocked = blocked_ends(generators, scan);
+      if (!blocked) return std::nullopt;
+      ends = *blocked;
+    }
+    return free_segment(scan, ends);
+  }
+
+  // The node's outermost contacts are rounded: of all positions at which a face begins or
+  // ends, the nearest.
+  [[nodiscard]] static std::array<Rational, 2> outer_positions(
+      const LineScan& scan, const std::array<ExactPoint, 2>& at,
+      const SkeletonNode& node) {
+    std::array<Rational, 2> out;
+    for (int k = 0; k < 2; ++k) {
+      const ExactPoint near = internal::exact_point(node.segment[k]);
+      Rational over = 0;
+      Rational under = 0;
+      for (int i = 0; i < 3; ++i) {
+        const Rational way = at[1][i] - at[0][i];
+        over += (near[i] - at[0][i]) * way;
+        under += way * way;
+      }
+      const Rational position = over / under;
+      std::optional<Rational> least;
+      for (int c = 0; c < scan.size(); ++c) {
+        for (const Rational& t : scan.instants(c)) {
+          const Rational off = abs(t - position);
+          if (least && off >= *least) continue;
+          least = off;
+          out[k] = t;
+        }
+      }
+    }
+    return out;
   }
 
   const Scene& scene;
@@ -304,47 +355,14 @@ std::vector<SkeletonLines::EndPiece> SkeletonLines::ends(const EeeArc& arc) cons
 
 std::optional<FreeSegment> SkeletonLines::line(const Skeleton& skeleton,
                                                const SkeletonNode& node) const {
-  const bool told = node.ends[0] || node.ends[1];
-  if (node.end && (!told || node.kind == NodeKind::Degenerate)) return std::nullopt;
-  const auto generators = skeleton.generators(node);
-  std::vector<int> vertices, edges, facets;
-  for (const Generator& g : generators) {
-    (g.kind == GeneratorKind::Vertex ? vertices
-     : g.kind == GeneratorKind::Edge ? edges
-                                     : facets)
-        .push_back(g.id);
+  const auto found = internal::line_of_node(impl_->scene, skeleton, node);
+  if (!found) return std::nullopt;
+  if (found->irrational) {
+    const auto generators = skeleton.generators(node);
+    return free_segment(impl_->generators, *found->irrational,
+                        {generators.front().id, generators.back().id});
   }
-  if (vertices.size() >= 2) {
-    return impl_->line(impl_->point(vertices.front()), impl_->point(vertices.back()),
-                       node.ends);
-  }
-  if (vertices.size() != 1 || edges.empty()) return std::nullopt;
-  const ExactPoint v = impl_->point(vertices[0]);
-  const Scene& scene = impl_->scene;
-  const int last = edges.back();
-  if (edges.size() == 2) {
-    const auto& other = scene.edges()[edges.front()].points;
-    const auto x =
-        impl_->crossing(last, v, impl_->point(other[0]), impl_->point(other[1]));
-    if (!x) return std::nullopt;
-    if (node.kind != NodeKind::EVE) return impl_->line(v, *x, node.ends);
-    const auto& far = scene.edges()[last].points;
-    const auto y =
-        impl_->crossing(edges.front(), v, impl_->point(far[0]), impl_->point(far[1]));
-    if (!y) return std::nullopt;
-    return impl_->line(*y, *x, node.ends);
-  }
-  if (edges.size() == 1 && facets.size() == 1) {
-    // The face of the facet at the vertex gives the plane.
-    for (const int f : scene.faces_at(vertices[0])) {
-      if (scene.faces()[f].facet != facets[0]) continue;
-      const auto p = internal::plane_points(scene, f);
-      const auto x = impl_->crossing(last, impl_->point(p[0]), impl_->point(p[1]),
-                                     impl_->point(p[2]));
-      if (x) return impl_->line(v, *x, node.ends);
-    }
-  }
-  return std::nullopt;
+  return impl_->node_line(found->points, node);
 }
 
 }  // namespace sightline

@@ -20,7 +20,9 @@ class SkeletonLines {
   ~SkeletonLines();
   SkeletonLines(SkeletonLines&&) noexcept;
 
-  /// All of them: where a contact is an end contact the free segment ends there.
+  /// All of them: where an outer contact is an end contact the free segment ends there,
+  /// and it is the first or the last of the contacts, blocked.
+  ///
   /// The line through the arc's vertex (position 0) and the point of its edge at
   /// parameter s (position 1), exactly, for s strictly inside the arc's range.  Cost:
   /// some 10 microseconds.
@@ -59,10 +61,17 @@ class SkeletonLines {
   [[nodiscard]] std::vector<EndPiece> ends(const SkeletonArc& arc) const;
   [[nodiscard]] std::vector<EndPiece> ends(const EeeArc& arc) const;
 
-  /// The line of a node, from its first contact (position 0) to its last (1).  nullopt
-  /// for `end` nodes of solid mode and degenerate ones of polygon mode, for degenerate
-  /// ones without two corners, and for kinds without a corner (EEEE, whose lines are
-  /// irrational, FEE, pierce).
+  /// The line of a node of any kind, from its first contact (position 0) to its last (1):
+  /// its contacts in order, each with the edges, corners and faces that it touches.
+  /// Faces, order and what blocks are exact.  Positions are rounded; those of EEEE lines
+  /// and others through edges alone, which are irrational, are off by at most 2^-44 times
+  /// the size of the scene's coordinates, by the distance of the outer contacts.  A
+  /// corner at which a line ends (`end`) is a blocked contact.
+  ///
+  /// nullopt for degenerate nodes whose generators leave the line a choice (they all lie
+  /// in lines of one regulus or pencil), and where another contact than an outer one
+  /// blocks between these (precision Double).  Cost: some 10 to 100 microseconds; a
+  /// millisecond where the line is irrational.
   [[nodiscard]] std::optional<FreeSegment> line(const Skeleton& skeleton,
                                                 const SkeletonNode& node) const;
 
