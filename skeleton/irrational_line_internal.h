@@ -32,7 +32,8 @@ namespace sightline::internal {
 /// whose rounded points are given; nullopt where a contact between them blocks.  An outer
 /// contact that blocks ends it, and is among the contacts.  Faces and order are exact,
 /// positions are off by at most 2^-44 times the size of the scene's coordinates, by the
-/// distance of the two points.
+/// distance of the two points, times 1 + |position|: points are off by kQuotientError of
+/// their coordinates.
 [[nodiscard]] std::optional<FreeSegment> free_segment(const Generators& generators,
                                                       const ExactLine& line,
                                                       const std::array<int, 2>& outer);

@@ -23,7 +23,7 @@ using internal::Rational;
 /// The roof z = 1 of the first box, [0, 4]^2, and what else stands around; seen from
 /// (2, -10, 1).
 bool roof_is_seen(std::vector<testing::AlignedBox> others) {
-  others.insert(others.begin(), {{0, 0, 0}, {4, 4, 1}});
+  others.insert(others.begin(), testing::AlignedBox{{0, 0, 0}, {4, 4, 1}});
   const Scene scene(testing::boxes_soup(others));
   const Skeleton skeleton = build_skeleton(scene);
   const EndIndex ends(scene, skeleton);
@@ -136,7 +136,7 @@ TEST(EdgeOnView, AgreesWithLinesToManyPoints) {
       if (at_a == Sign::Zero || orient3d(plane.a, plane.b, plane.c, b) != -at_a) continue;
       const bool exact = internal::sees_edge_on(g, facet, plane, a, b);
       const bool sampled = any_sample_is_seen(g, facet, plane, a, b);
-      if (sampled) EXPECT_TRUE(exact) << seed << " facet " << facet;
+      EXPECT_TRUE(exact || !sampled) << seed << " facet " << facet;
       seen += static_cast<int>(exact);
       hidden += static_cast<int>(!exact);
       more += static_cast<int>(exact && !sampled);
