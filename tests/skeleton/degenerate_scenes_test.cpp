@@ -199,7 +199,9 @@ TEST(DegenerateScenes, IrrationalLinesThroughFiveEdges) {
       ASSERT_EQ(found.size(), low == 1 ? 1u : 2u);
       EXPECT_TRUE(found.back().first);
       for (const auto& [second, count] : found) EXPECT_GT(count, 2);
-      if (found.size() == 2) EXPECT_FALSE(found.front().first);
+      if (found.size() == 2) {
+        EXPECT_FALSE(found.front().first);
+      }
     }
   }
 }
