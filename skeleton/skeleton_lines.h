@@ -65,14 +65,14 @@ class SkeletonLines {
   /// its contacts in order, each with the edges, corners and faces that it touches.
   /// Faces, order and what blocks are exact.  Positions are rounded; those of EEEE lines
   /// and others through edges alone, which are irrational, are off by at most 2^-44 times
-  /// the size of the scene's coordinates, by the distance of the outer contacts, times 1 +
-  /// |position|.  A corner at which a line ends (`end`) is a blocked contact.
+  /// the size of the scene's coordinates, by the distance of the outer contacts, times 1
+  /// + |position|.  A corner at which a line ends (`end`) is a blocked contact.
   ///
   /// nullopt for Saddle nodes and degenerate ones whose generators leave the line a
   /// choice, and where a contact blocks between the outer ones (some lines along a face
-  /// that end where it does; precision Double).  In the plane of a facet that is flat only
-  /// by tolerance the line may pass some of its faces an ulp away.  Cost: some 10 to 100
-  /// microseconds; a millisecond where the line is irrational.
+  /// that end where it does; precision Double).  In the plane of a facet that is flat
+  /// only by tolerance the line may pass some of its faces an ulp away.  Cost: some 10 to
+  /// 100 microseconds; a millisecond where the line is irrational.
   [[nodiscard]] std::optional<FreeSegment> line(const Skeleton& skeleton,
                                                 const SkeletonNode& node) const;
 
