@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -80,7 +81,6 @@ bool LineProbe::named(int face) const {
 bool LineProbe::may_touch_more(const Point& a, const Point& b, double error,
                                std::span<const Generator> known) {
   name(known);
-  walls_.clear();
   unsure_.clear();
   const Point d = b - a;
   const double length = d.norm();
@@ -93,10 +93,10 @@ bool LineProbe::may_touch_more(const Point& a, const Point& b, double error,
   // What the line is off by anywhere in the scene's box, and what the bounds below round
   // by (a few units in the last place of size, magnified likewise): generous.
   const double grow = (4 * error + 64 * kUnit * size) * (1 + 4 * size / length);
-  Range range{};
-  const auto enter = [&](const Box& box) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    range = {-kInfinity, kInfinity};
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Point inverse = d.cwiseInverse();
+  const auto range_in = [&](const Box& box) {
+    Range range{-kInfinity, kInfinity};
     for (int i = 0; i < 3; ++i) {
       const double low = box.min[i] - grow - a[i];
       const double high = box.max[i] + grow - a[i];
@@ -104,34 +104,56 @@ bool LineProbe::may_touch_more(const Point& a, const Point& b, double error,
       // and says nothing of positions.
       if (std::abs(d[i]) * (4 * size) <= grow * length) {
         const double sway = 4 * size / length * std::abs(d[i]);
-        if (low > sway || high < -sway) return false;
+        if (low > sway || high < -sway) return Range{kInfinity, -kInfinity};
         continue;
       }
-      const double p = low / d[i];
-      const double q = high / d[i];
+      const double p = low * inverse[i];
+      const double q = high * inverse[i];
       range.from = std::max(range.from, std::min(p, q));
       range.to = std::min(range.to, std::max(p, q));
     }
-    return range.from <= range.to;
+    return range;
   };
-  g_.face_tree().traverse(enter, [&](std::uint32_t item) {
-    const int face = static_cast<int>(item);
-    if (named(face) || !enter(g_.face_box(face))) return;
-    const Met how = met(g_.scene(), face, a, b, error);
-    if (how == Met::Crossed) walls_.push_back(range);
-    if (how == Met::Unsure) unsure_.push_back(range);
-  });
-  if (unsure_.empty()) return false;
   // The free segment ends at the latest where the nearest wall on either side does.
-  Range free{-std::numeric_limits<double>::infinity(),
-             std::numeric_limits<double>::infinity()};
-  for (const Range& wall : walls_) {
-    if (wall.from > 1) free.to = std::min(free.to, wall.to);
-    if (wall.to < 0) free.from = std::max(free.from, wall.from);
+  Range free{-kInfinity, kInfinity};
+  const auto matters = [&](const Range& r) {
+    return r.from <= r.to && r.from <= free.to && r.to >= free.from;
+  };
+  const auto away = [](const Range& r) { return std::max({0.0, r.from - 1, -r.to}); };
+  const Bvh& tree = g_.face_tree();
+  struct Entry {
+    std::uint32_t node;
+    Range range;
+  };
+  std::array<Entry, 128> stack;
+  int top = 0;
+  if (!tree.empty()) stack[top++] = {0, range_in(tree.node(0).box)};
+  while (top > 0) {
+    const Entry entry = stack[--top];
+    if (!matters(entry.range)) continue;
+    const Bvh::Node& node = tree.node(entry.node);
+    if (node.count == 0) {
+      // From the segment outwards, so that walls are met early.
+      Entry near{node.first, range_in(tree.node(node.first).box)};
+      Entry far{node.first + 1, range_in(tree.node(node.first + 1).box)};
+      if (away(far.range) < away(near.range)) std::swap(near, far);
+      if (matters(far.range)) stack[top++] = far;
+      if (matters(near.range)) stack[top++] = near;
+      continue;
+    }
+    for (std::uint32_t k = 0; k < node.count; ++k) {
+      const int face = static_cast<int>(tree.items()[node.first + k]);
+      if (named(face)) continue;
+      const Range range = range_in(g_.face_box(face));
+      if (!matters(range)) continue;
+      const Met how = met(g_.scene(), face, a, b, error);
+      if (how == Met::Unsure) unsure_.push_back(range);
+      if (how != Met::Crossed) continue;
+      if (range.from > 1) free.to = std::min(free.to, range.to);
+      if (range.to < 0) free.from = std::max(free.from, range.from);
+    }
   }
-  return std::any_of(unsure_.begin(), unsure_.end(), [&](const Range& x) {
-    return x.from <= free.to && x.to >= free.from;
-  });
+  return std::any_of(unsure_.begin(), unsure_.end(), matters);
 }
 
 }  // namespace sightline::internal

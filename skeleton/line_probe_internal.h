@@ -32,7 +32,7 @@ class LineProbe {
   struct Range {
     double from, to;
   };
-  std::vector<Range> walls_, unsure_;  // positions: 0 at a, 1 at b
+  std::vector<Range> unsure_;  // positions: 0 at a, 1 at b; empty if from > to
 };
 
 }  // namespace sightline::internal
