@@ -20,19 +20,6 @@ auto signed_weights(const std::array<Vector, 3>& directions,
   return w;
 }
 
-ExactPoint exact_difference(const ExactPoint& to, const ExactPoint& from) {
-  return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
-}
-
-Rational exact_dot(const ExactPoint& u, const ExactPoint& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
-ExactPoint exact_cross(const ExactPoint& u, const ExactPoint& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-          u[0] * v[1] - u[1] * v[0]};
-}
-
 }  // namespace
 
 std::optional<std::array<std::array<Rational, 9>, 3>> concurrent_weights(

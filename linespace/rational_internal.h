@@ -17,4 +17,16 @@ using ExactPoint = std::array<Rational, 3>;
   return {Rational(p.x()), Rational(p.y()), Rational(p.z())};
 }
 
+[[nodiscard]] inline ExactPoint exact_difference(const ExactPoint& to,
+                                                 const ExactPoint& from) {
+  return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+}
+[[nodiscard]] inline Rational exact_dot(const ExactPoint& u, const ExactPoint& v) {
+  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+}
+[[nodiscard]] inline ExactPoint exact_cross(const ExactPoint& u, const ExactPoint& v) {
+  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+          u[0] * v[1] - u[1] * v[0]};
+}
+
 }  // namespace sightline::internal

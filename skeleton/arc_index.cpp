@@ -10,12 +10,6 @@ namespace {
 
 constexpr double kBoxesAnArc = 4;
 
-ArcRef arc_of(const Skeleton& skeleton, std::size_t number) {
-  const std::size_t ev = skeleton.arcs.size();
-  return number < ev ? ArcRef{ArcKind::EV, static_cast<std::uint32_t>(number)}
-                     : ArcRef{ArcKind::EEE, static_cast<std::uint32_t>(number - ev)};
-}
-
 // How fine the boxes may be so that there are kBoxesAnArc of them for an arc, on average:
 // told from arcs evenly spaced in their order.
 double fineness(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends,
@@ -28,7 +22,8 @@ double fineness(const Scene& scene, const Skeleton& skeleton, const EndIndex& en
     std::vector<ChartBox> found;
     std::size_t arcs = 0;
     for (std::size_t i = 0; i < count; i += stride, ++arcs) {
-      viewing_boxes(scene, skeleton, ends, frame, arc_of(skeleton, i), fine, found);
+      viewing_boxes(scene, skeleton, ends, frame, arc_at(i, skeleton.arcs.size()), fine,
+                    found);
     }
     return static_cast<double>(found.size()) / static_cast<double>(arcs);
   };
@@ -63,7 +58,7 @@ class Part {
 }  // namespace
 
 ArcIndex::ArcIndex(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends)
-    : frame_(scene) {
+    : ev_count_(skeleton.arcs.size()), frame_(scene) {
   const std::size_t count = skeleton.arcs.size() + skeleton.eee_arcs.size();
   if (count == 0) return;
   const double fine = fineness(scene, skeleton, ends, frame_, count);
@@ -85,7 +80,7 @@ ArcIndex::ArcIndex(const Scene& scene, const Skeleton& skeleton, const EndIndex&
         const std::size_t from = batch * kArcsAtOnce;
         for (std::size_t i = from; i < std::min(count, from + kArcsAtOnce); ++i) {
           boxes.clear();
-          viewing_boxes(scene, skeleton, ends, frame_, arc_of(skeleton, i), fine, boxes);
+          viewing_boxes(scene, skeleton, ends, frame_, arc_at(i, ev_count_), fine, boxes);
           for (const ChartBox& b : boxes) {
             found.push_back({b.chart, {b.box, b.slab, static_cast<std::uint32_t>(i)}});
           }
@@ -101,8 +96,7 @@ ArcIndex::ArcIndex(const Scene& scene, const Skeleton& skeleton, const EndIndex&
   }
 }
 
-std::optional<std::vector<std::uint32_t>> ArcIndex::near(const Point& a,
-                                                         const Point& b) const {
+std::optional<std::vector<ArcRef>> ArcIndex::near(const Point& a, const Point& b) const {
   // Points of the path are then off by less than 2^-30 in each chart.
   constexpr double kFar = 0x1p20;
   const Point from = frame_(a);
@@ -148,7 +142,10 @@ std::optional<std::vector<std::uint32_t>> ArcIndex::near(const Point& a,
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
-  return found;
+  std::vector<ArcRef> arcs;
+  arcs.reserve(found.size());
+  for (const std::uint32_t number : found) arcs.push_back(arc_at(number, ev_count_));
+  return arcs;
 }
 
 std::size_t ArcIndex::boxes() const {

@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -14,22 +13,23 @@
 
 namespace sightline::internal {
 
-/// Immutable; may be shared between threads.  Some 100 bytes an arc: five boxes each,
-/// more only where arcs have more pieces.
+/// Immutable; may be shared between threads.  Some 130 bytes an arc: five boxes
+/// each, more only where arcs have more pieces.
 class ArcIndex {
  public:
   ArcIndex(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends);
 
-  /// Numbers of arcs, EV and then EEE, ascending: all that ViewEvents may report on the
+  /// Arcs, ascending: all that ViewEvents may report on the
   /// segment from a to b, and others near it; nullopt where a point is so far out (2^20
   /// times the scene's size) that all may be.
-  [[nodiscard]] std::optional<std::vector<std::uint32_t>> near(const Point& a,
-                                                               const Point& b) const;
+  [[nodiscard]] std::optional<std::vector<ArcRef>> near(const Point& a,
+                                                        const Point& b) const;
 
   [[nodiscard]] std::size_t boxes() const;
   [[nodiscard]] std::size_t bytes() const;
 
  private:
+  std::size_t ev_count_;  // of the arcs numbered first
   Frame frame_;
   std::array<BoxTree, kCharts> trees_;
 };

@@ -67,12 +67,9 @@ class EdgeOnView {
     const Rational at_b = height(b);
     x_ = along(exact_point(a), exact_point(b), at_a / (at_a - at_b));
     near_ = rounded(x_);
-    std::array<Rational, 3> normal;
+    const ExactPoint normal = exact_cross(exact_difference(plane_[1], plane_[0]),
+                                          exact_difference(plane_[2], plane_[0]));
     for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3;
-      const int k = (i + 2) % 3;
-      normal[i] = (plane_[1][j] - plane_[0][j]) * (plane_[2][k] - plane_[0][k]) -
-                  (plane_[1][k] - plane_[0][k]) * (plane_[2][j] - plane_[0][j]);
       if (abs(normal[i]) > abs(normal[axis_])) axis_ = i;
     }
     kept_ = {(axis_ + 1) % 3, (axis_ + 2) % 3};
@@ -132,8 +129,7 @@ class EdgeOnView {
     return exact_orient(plane_[0], plane_[1], plane_[2], exact_point(p));
   }
 
-  // ---- Directions
-  // -----------------------------------------------------------------------
+  // ---- Directions -------------------------------------------------------------------
 
   int direction_of(std::int32_t p, std::int32_t q) {
     const auto [at, is_new] =
@@ -206,8 +202,7 @@ class EdgeOnView {
     return decide([&](auto&& way) { return way(id)[i]; });
   }
 
-  // ---- What lies in the plane
-  // -----------------------------------------------------------
+  // ---- What lies in the plane -------------------------------------------------------
 
   void add_sides() {
     for (const int f : scene_.facets()[facet_].faces) {
@@ -309,8 +304,7 @@ class EdgeOnView {
     return false;
   }
 
-  // ---- Around the viewpoint
-  // -------------------------------------------------------------
+  // ---- Around the viewpoint ---------------------------------------------------------
 
   bool turns_before(int a, int b) {
     const bool first = in_first_half(a);

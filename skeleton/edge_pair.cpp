@@ -37,6 +37,7 @@ std::vector<EdgePairs::Group> EdgePairs::ridge_groups(const Bvh& tree) {
   }
   return groups;
 }
+
 EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
                      const EeePart& part)
     : g_(generators),
@@ -70,7 +71,7 @@ void EdgePairs::visit(int i, const std::function<bool()>& stop,
     const Bvh::Node& node = tree.node(at);
     if (groups_[at].highest <= i) continue;
     if (!selection_.may_pair(i, view_.box(), at, node.box)) continue;
-    if (view_.never_touched_from(node.box) || view_.hidden(node.box)) continue;
+    if (view_.never_touched_from(node.box) || view_.occluders().hide(node.box)) continue;
     if (groups_[at].begins) view_.look_at(node.box);
     if (node.count == 0) {
       stack[top++] = node.first + 1;
@@ -126,7 +127,7 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   outer.last_planes = {values(s.a, p0, p1), values(s.b, p0, p1)};
   if (never_touches(s, outer.last_planes)) return;
   if (share_facet(r, s)) return;
-  if (view_.hidden(q0, q1)) return;
+  if (view_.occluders().hide(q0, q1)) return;
   if (!gather(outer)) return;
   visit_middles(outer, false, out);
   // Where the middle edge and the last are coplanar, s is constant: the other way round.
@@ -158,7 +159,7 @@ bool EdgePairs::gather(const Outer& outer) {
     return false;
   }
   view_.faces_between(shaft, faces_);
-  if (view_.hidden_by_one_of(faces_, q0, q1)) return false;
+  if (view_.occluders().hide(faces_, q0, q1)) return false;
   const auto linear = [](const PlaneValues& v) {
     return PairCells::Linear{v.at0.value, v.at1.value, std::max(v.at0.error, v.at1.error),
                              v.sign0 == Sign::Zero, v.sign1 == Sign::Zero};
@@ -202,7 +203,7 @@ bool EdgePairs::gather(const Outer& outer) {
         !share_facet(ridge, first) && !share_facet(ridge, last);
     return middle_allowed_[m] != 0;
   });
-  if (cells_.hidden_by() >= 0) view_.remember(cells_.hidden_by());
+  if (cells_.hidden_by() >= 0) view_.occluders().remember(cells_.hidden_by());
   return !cells_.middles().empty();
 }
 

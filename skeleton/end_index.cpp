@@ -83,9 +83,7 @@ EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& 
       [&](std::size_t batch, std::vector<Ends>&& found) {
         for (std::size_t k = 0; k < found.size(); ++k) {
           const std::size_t i = batch * kArcsAtOnce + k;
-          add(i < ev ? ArcRef{ArcKind::EV, static_cast<std::uint32_t>(i)}
-                     : ArcRef{ArcKind::EEE, static_cast<std::uint32_t>(i - ev)},
-              found[k]);
+          add(arc_at(i, ev), found[k]);
         }
         return true;
       });

@@ -190,6 +190,12 @@ class Generators {
   });
 }
 
+/// The point is a corner of the face.
+[[nodiscard]] inline bool has_point(const Scene& scene, int face, int point) {
+  const auto p = scene.face_points(face);
+  return std::find(p.begin(), p.end(), point) != p.end();
+}
+
 /// The closed boxes have a point in common.
 [[nodiscard]] bool boxes_meet(const Box& a, const Box& b);
 

@@ -13,28 +13,16 @@
 namespace sightline::internal {
 namespace {
 
-using Way = ExactPoint;
-
-Way operator-(const ExactPoint& a, const ExactPoint& b) {
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-Way cross(const Way& a, const Way& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-          a[0] * b[1] - a[1] * b[0]};
-}
-Rational dot(const Way& a, const Way& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-bool is_zero(const Way& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
+bool is_zero(const ExactPoint& a) { return a[0] == 0 && a[1] == 0 && a[2] == 0; }
 
 // normal x = offset.
 struct Plane {
-  Way normal;
+  ExactPoint normal;
   Rational offset;
 };
 Plane plane_through(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
-  Way n = cross(b - a, c - a);
-  Rational offset = dot(n, a);
+  ExactPoint n = exact_cross(exact_difference(b, a), exact_difference(c, a));
+  Rational offset = exact_dot(n, a);
   return {std::move(n), std::move(offset)};
 }
 
@@ -46,12 +34,12 @@ std::optional<Points> common_line(const std::vector<Plane>& planes) {
     for (std::size_t i = 0; i < j; ++i) {
       const auto& [n, c] = planes[i];
       const auto& [m, d] = planes[j];
-      const Way way = cross(n, m);
+      const ExactPoint way = exact_cross(n, m);
       if (is_zero(way)) continue;
       // x = (c m x way + d way x n) / way^2.
-      const Way a = cross(m, way);
-      const Way b = cross(way, n);
-      const Rational size = dot(way, way);
+      const ExactPoint a = exact_cross(m, way);
+      const ExactPoint b = exact_cross(way, n);
+      const Rational size = exact_dot(way, way);
       ExactPoint x, y;
       for (int k = 0; k < 3; ++k) {
         x[k] = (c * a[k] + d * b[k]) / size;
@@ -83,13 +71,13 @@ Points points_of(const ExactLine& line) {
   const auto root = rational_root(c.radicand);
   int axis = 0;
   while (internal::is_zero(c.d[axis], c.radicand)) ++axis;
-  Way way, moment;
+  ExactPoint way, moment;
   for (int i = 0; i < 3; ++i) {
     way[i] = ratio(c.d[i], c.d[axis], c.radicand, root);
     moment[i] = ratio(c.m[i], c.d[axis], c.radicand, root);
   }
-  const Rational size = dot(way, way);
-  ExactPoint x = cross(way, moment);
+  const Rational size = exact_dot(way, way);
+  ExactPoint x = exact_cross(way, moment);
   for (Rational& coordinate : x) coordinate /= size;
   return {x, ExactPoint{x[0] + way[0], x[1] + way[1], x[2] + way[2]}};
 }
@@ -164,9 +152,11 @@ class NodeLines {
   // The line passes all corners, meets all edges' lines, and lies in all facets' planes.
   [[nodiscard]] bool touches_all(const Points& at, NodeKind kind) const {
     const auto& [a, b] = at;
-    if (is_zero(b - a)) return false;
+    if (is_zero(exact_difference(b, a))) return false;
     return std::all_of(generators_.begin(), generators_.end(), [&](const Generator& g) {
-      if (g.kind == GeneratorKind::Vertex) return is_zero(cross(b - a, point(g.id) - a));
+      if (g.kind == GeneratorKind::Vertex)
+        return is_zero(
+            exact_cross(exact_difference(b, a), exact_difference(point(g.id), a)));
       if (g.kind == GeneratorKind::Edge) {
         const auto& p = scene_.edges()[g.id].points;
         return exact_orient(a, b, point(p[0]), point(p[1])) == 0;
@@ -174,7 +164,7 @@ class NodeLines {
       if (kind == NodeKind::Pierce) return true;
       const auto planes = planes_of(g.id);
       return std::any_of(planes.begin(), planes.end(), [&](const Plane& p) {
-        return dot(p.normal, a) == p.offset && dot(p.normal, b) == p.offset;
+        return exact_dot(p.normal, a) == p.offset && exact_dot(p.normal, b) == p.offset;
       });
     });
   }
@@ -212,7 +202,8 @@ class NodeLines {
     }
     for (const int f : facets_) {
       for (Plane& plane : planes_of(f)) {
-        if (dot(plane.normal, x) == plane.offset) planes.push_back(std::move(plane));
+        if (exact_dot(plane.normal, x) == plane.offset)
+          planes.push_back(std::move(plane));
       }
     }
     return common_line(planes);
@@ -230,7 +221,8 @@ class NodeLines {
     for (const int e : edges_) {
       const auto x = crossing(e, plane);
       if (!x) continue;
-      if (!met.empty() && !is_zero(*x - met.front())) return Points{met.front(), *x};
+      if (!met.empty() && !is_zero(exact_difference(*x, met.front())))
+        return Points{met.front(), *x};
       if (met.empty()) met.push_back(*x);
     }
     return std::nullopt;
@@ -239,8 +231,8 @@ class NodeLines {
     const auto& p = scene_.edges()[edge].points;
     const ExactPoint a = point(p[0]);
     const ExactPoint b = point(p[1]);
-    const Rational from = dot(plane.normal, a) - plane.offset;
-    const Rational to = dot(plane.normal, b) - plane.offset;
+    const Rational from = exact_dot(plane.normal, a) - plane.offset;
+    const Rational to = exact_dot(plane.normal, b) - plane.offset;
     if (from == to) return std::nullopt;
     return along(a, b, from / (from - to));
   }

@@ -28,6 +28,13 @@ std::string name(NodeKind kind) {
 
 }  // namespace
 
+std::vector<ArcRef> all_arcs(const Skeleton& skeleton) {
+  const std::size_t ev = skeleton.arcs.size();
+  std::vector<ArcRef> arcs(ev + skeleton.eee_arcs.size());
+  for (std::size_t i = 0; i < arcs.size(); ++i) arcs[i] = arc_at(i, ev);
+  return arcs;
+}
+
 SkeletonIndex::SkeletonIndex(const Scene& scene, const Skeleton& skeleton)
     : scene_(scene),
       skeleton_(skeleton),

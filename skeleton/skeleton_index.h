@@ -22,6 +22,15 @@ struct ArcRef {
   friend auto operator<=>(const ArcRef&, const ArcRef&) = default;
 };
 
+/// Arcs in one row, the EV arcs and then the EEE arcs: the one at this position, of a
+/// skeleton with so many EV arcs; and all of them.
+[[nodiscard]] constexpr ArcRef arc_at(std::size_t position, std::size_t ev_count) {
+  const bool ev = position < ev_count;
+  return {ev ? ArcKind::EV : ArcKind::EEE,
+          static_cast<std::uint32_t>(ev ? position : position - ev_count)};
+}
+[[nodiscard]] std::vector<ArcRef> all_arcs(const Skeleton& skeleton);
+
 /// Immutable; safe to share between threads; keeps references to scene and skeleton.
 /// Built in time linear in its size; every look-up is a slice of an array, no geometry.
 class SkeletonIndex {

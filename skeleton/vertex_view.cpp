@@ -6,7 +6,6 @@
 #include "skeleton/degenerate_pair_internal.h"
 #include "skeleton/drawn_internal.h"
 #include "skeleton/node_contacts_internal.h"
-#include "skeleton/occluder_shadow_internal.h"
 #include "skeleton/opposite_edges_internal.h"
 #include "skeleton/vertex_view_internal.h"
 
@@ -168,6 +167,7 @@ VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
       lines_(lines),
       feature_size_(feature_size),
       facet_stamp_(scene_.facets().size(), 0),
+      occluders_(generators),
       probe_(generators) {}
 
 struct VertexViewer::Pair {
@@ -204,12 +204,12 @@ void VertexViewer::prepare(int star) {
   point_ = star_->point;
   at_ = scene_.point(point_);
   ++stamp_;
-  for (const int f : star_->faces) facet_stamp_[scene_.faces()[f].facet] = stamp_;
-  shadow_index_.clear();
+  std::vector<std::int32_t> facets;
+  for (const int f : star_->faces) facets.push_back(scene_.faces()[f].facet);
+  for (const int f : facets) facet_stamp_[f] = stamp_;
   const auto objects = g_.objects_at(point_);
   own_objects_.assign(objects.begin(), objects.end());
-  shadows_.clear();
-  recent_.clear();
+  occluders_.begin(std::span(&at_, 1), own_objects_, facets);
   star_planes_.clear();
   if (star_->convex) {
     for (const int f : star_->faces) {
@@ -217,30 +217,6 @@ void VertexViewer::prepare(int star) {
       star_planes_.push_back(plane_seen_from(at_, a, b, c));
     }
   }
-}
-
-// The shadow of a face's convex solid, else of its convex facet, else of the face alone.
-int VertexViewer::shadow_of(int face) {
-  const Face& f = scene_.faces()[face];
-  const bool solid = g_.convex_solid(f.object);
-  const auto [at, fresh] = shadow_index_.try_emplace(occluder_key(g_, face), -1);
-  if (!fresh) return at->second;
-  if (solid && contains(own_objects_, f.object)) return -1;
-  if (!solid && facet_stamp_[f.facet] == stamp_) return -1;
-  Shadow shadow = solid ? solid_shadow(g_, f.object, at_) : facet_shadow(g_, face, at_);
-  if (shadow.planes.empty()) return -1;
-  at->second = static_cast<int>(shadows_.size());
-  shadows_.push_back(std::move(shadow));
-  return at->second;
-}
-
-std::array<std::array<double, 3>, 2> VertexViewer::seen_from_here(const Box& box) const {
-  std::array<std::array<double, 3>, 2> ends;
-  for (int i = 0; i < 3; ++i) {
-    ends[0][i] = box.min[i] - at_[i];
-    ends[1][i] = box.max[i] - at_[i];
-  }
-  return ends;
 }
 
 bool VertexViewer::hidden(const Box& box) {
@@ -259,24 +235,7 @@ bool VertexViewer::hidden(const Box& box) {
       return true;  // in polygon mode: ends there
     }
   }
-  const auto [low, high] = seen_from_here(box);
-  for (std::size_t i = 0; i < recent_.size(); ++i) {
-    if (shadows_[recent_[i]].hides(low, high) == Hides::Inside) {
-      std::rotate(recent_.begin(), recent_.begin() + static_cast<std::ptrdiff_t>(i),
-                  recent_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-      return true;
-    }
-  }
-  return false;
-}
-
-void VertexViewer::remember(int face) {
-  constexpr std::size_t kRecent = 12;
-  const int index = shadow_of(face);
-  if (index < 0) return;
-  if (std::find(recent_.begin(), recent_.end(), index) != recent_.end()) return;
-  if (recent_.size() >= kRecent) recent_.pop_back();
-  recent_.insert(recent_.begin(), index);
+  return occluders_.hide(box);
 }
 
 VertexView VertexViewer::view(int star) {
@@ -364,19 +323,8 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
           return g_.face_plane(f)(e0) == Sign::Zero && g_.face_plane(f)(e1) == Sign::Zero;
         });
     if (!in_plane && !g_.polygon()) return;
-  } else {
-    // All of the edge but its ends is behind the inside of one occluder.
-    const auto c0 = relative(e0, at_);
-    const auto c1 = relative(e1, at_);
-    const auto hides = [&](const Shadow& s) {
-      const Hides first = s.hides(c0, c0);
-      if (first == Hides::No) return false;
-      const Hides last = s.hides(c1, c1);
-      return last != Hides::No && (first == Hides::Inside || last == Hides::Inside);
-    };
-    for (const int s : recent_) {
-      if (hides(shadows_[s])) return;
-    }
+  } else if (occluders_.hide(e0, e1)) {
+    return;
   }
   const Edge& edge = scene_.edges()[r.edge];
   const bool own_solid = std::all_of(r.objects.begin(), r.objects.end(), [&](int o) {
@@ -424,7 +372,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
       const int face = static_cast<int>(tree.items()[node.first + i]);
       add_blocker(pair, face);
       if (!pair.closed.covers_all()) continue;
-      remember(face);
+      occluders_.remember(face);
       return;
     }
   }

@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <deque>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/line_probe_internal.h"
+#include "skeleton/occluders_internal.h"
 #include "skeleton/part_internal.h"
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
@@ -76,11 +76,7 @@ class VertexViewer {
   struct Pair;  // one vertex and one ridge
 
   void prepare(int star);
-  /// Corners of a box, relative to the viewpoint.
-  [[nodiscard]] std::array<std::array<double, 3>, 2> seen_from_here(const Box& box) const;
   [[nodiscard]] bool hidden(const Box& box);
-  void remember(int face);  // its occluder is tried first from now on
-  int shadow_of(int face);  // position in shadows_, -1 if it casts none
   void visit_ridges(VertexView& out);
   void drop_short_arcs(VertexView& out);
   void drop_arcs_off_source(VertexView& out);
@@ -119,9 +115,7 @@ class VertexViewer {
   std::vector<std::uint32_t> facet_stamp_;  // == stamp_: facet at the viewpoint
   std::uint32_t stamp_ = 0;
   std::vector<std::int32_t> own_objects_;
-  std::vector<Shadow> shadows_;                         // of this viewpoint
-  std::unordered_map<std::int64_t, int> shadow_index_;  // by solid, facet or face
-  std::vector<std::int32_t> recent_;  // positions in shadows_, best first
+  Occluders occluders_;
   std::vector<BoundedPlane> star_planes_;
   LineProbe probe_;
 };

@@ -413,9 +413,8 @@ struct ViewEvents::Impl {
 
   [[nodiscard]] static Path path_between(const Point& a, const Point& b) {
     for (const Point& p : {a, b}) {
-      for (const double x : p) {
-        if (!is_admissible(x))
-          throw InvalidInput("a viewpoint's coordinate is not usable");
+      if (!std::all_of(p.begin(), p.end(), is_admissible)) {
+        throw InvalidInput("a viewpoint's coordinate is not usable");
       }
     }
     if (a == b) throw InvalidInput("the path's two ends are the same point");
@@ -427,12 +426,14 @@ struct ViewEvents::Impl {
     return *index;
   }
 
-  void cross_number(const Path& path, std::size_t number, std::vector<Found>& out) const {
-    const std::size_t ev = skeleton.arcs.size();
-    if (number < ev) {
-      cross_ev(path, static_cast<std::uint32_t>(number), out);
-    } else {
-      cross_eee(path, static_cast<std::uint32_t>(number - ev), out);
+  void cross_arcs(const Path& path, std::span<const ArcRef> arcs,
+                  std::vector<Found>& out) const {
+    for (const ArcRef& arc : arcs) {
+      if (arc.kind == ArcKind::EV) {
+        cross_ev(path, arc.id, out);
+      } else {
+        cross_eee(path, arc.id, out);
+      }
     }
   }
 
@@ -468,13 +469,8 @@ ViewEvents::ViewEvents(ViewEvents&&) noexcept = default;
 std::vector<ViewEvent> ViewEvents::crossed(const Point& a, const Point& b) const {
   const Impl::Path path = Impl::path_between(a, b);
   std::vector<Found> found;
-  if (const auto near = impl_->arc_index().near(a, b)) {
-    for (const std::uint32_t i : *near) impl_->cross_number(path, i, found);
-  } else {
-    const std::size_t count =
-        impl_->skeleton.arcs.size() + impl_->skeleton.eee_arcs.size();
-    for (std::size_t i = 0; i < count; ++i) impl_->cross_number(path, i, found);
-  }
+  const auto near = impl_->arc_index().near(a, b);
+  impl_->cross_arcs(path, near ? *near : all_arcs(impl_->skeleton), found);
   impl_->cross_facets(path, found);
   return Impl::in_order(path, std::move(found));
 }
@@ -483,13 +479,7 @@ std::vector<ViewEvent> ViewEvents::crossed(const Point& a, const Point& b,
                                            std::span<const ArcRef> arcs) const {
   const Impl::Path path = Impl::path_between(a, b);
   std::vector<Found> found;
-  for (const ArcRef& arc : arcs) {
-    if (arc.kind == ArcKind::EV) {
-      impl_->cross_ev(path, arc.id, found);
-    } else {
-      impl_->cross_eee(path, arc.id, found);
-    }
-  }
+  impl_->cross_arcs(path, arcs, found);
   return Impl::in_order(path, std::move(found));
 }
 

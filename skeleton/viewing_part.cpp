@@ -317,8 +317,7 @@ class Boxes {
     return {family_.stretch(x.a, *middle), family_.stretch(*middle, x.b)};
   }
 
-  // ---- In the cube
-  // ----------------------------------------------------------------------
+  // ---- In the cube ------------------------------------------------------------------
 
   void inside(const Stretch& x, double from, double to, int depth) {
     const Rays r = rays(x);
@@ -363,8 +362,7 @@ class Boxes {
     return out;
   }
 
-  // ---- Beyond it
-  // ------------------------------------------------------------------------
+  // ---- Beyond it --------------------------------------------------------------------
 
   void outside(const Stretch& x, double from, double to, int depth) {
     const Rays r = rays(x);

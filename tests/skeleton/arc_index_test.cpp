@@ -22,17 +22,6 @@ std::ostream& operator<<(std::ostream& stream, const ViewEvent& e) {
 
 namespace {
 
-std::vector<ArcRef> all_arcs(const Skeleton& skeleton) {
-  std::vector<ArcRef> out;
-  for (std::uint32_t i = 0; i < skeleton.arcs.size(); ++i) {
-    out.push_back({ArcKind::EV, i});
-  }
-  for (std::uint32_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
-    out.push_back({ArcKind::EEE, i});
-  }
-  return out;
-}
-
 /// Asks every arc of a scene, and the index.
 class Compared {
  public:
@@ -78,18 +67,6 @@ class Compared {
   std::vector<ArcRef> arcs_;
 };
 
-/// In the scene's box, or that far beyond it, in units of its size; on a grid.
-Point point_in(testing::Random& random, const Scene& scene, double beyond) {
-  Point p;
-  for (int i = 0; i < 3; ++i) {
-    const double low = scene.bounds()[0][i];
-    const double high = scene.bounds()[1][i];
-    const double margin = beyond * (high - low);
-    p[i] = std::round(256 * random.uniform(low - margin, high + margin)) / 256;
-  }
-  return p;
-}
-
 Point direction(testing::Random& random) {
   Point d;
   do {
@@ -102,8 +79,8 @@ void check_random_paths(Compared& x, std::uint64_t seed, int count) {
   testing::Random random(seed);
   for (int i = 0; i < count; ++i) {
     const double beyond = i % 4 == 0 ? 3 : 0.05;
-    const Point a = point_in(random, x.scene, beyond);
-    x.check(a, point_in(random, x.scene, beyond), "long");
+    const Point a = testing::grid_point(random, x.scene, beyond);
+    x.check(a, testing::grid_point(random, x.scene, beyond), "long");
     x.check(a, a + 0x1p-6 * direction(random), "short");
     x.check(a, a + 0x1p-30 * direction(random), "tiny");
     Point b = a;
@@ -201,7 +178,7 @@ TEST(ArcIndex, AsksFewArcsOfAShortPath) {
   Compared x(testing::random_polytopes(1, 30, {.density = 0.2}));
   testing::Random random(1);
   for (int i = 0; i < 200; ++i) {
-    const Point a = point_in(random, x.scene, 0);
+    const Point a = testing::grid_point(random, x.scene, 0);
     x.check(a, a + 0x1p-6 * direction(random), "short");
   }
   report("short paths", x);

@@ -58,12 +58,12 @@ Hidden check_hidden(const PolygonSoup& soup, std::size_t step) {
     const auto first = ends_of(scene, ridges[i]);
     for (std::size_t j = 0; j < ridges.size(); ++j) {
       const auto last = ends_of(scene, ridges[j]);
-      if (!view.hidden_by_one_of(faces, last[0], last[1])) continue;
+      if (!view.occluders().hide(faces, last[0], last[1])) continue;
       ++count.edges;
       EXPECT_FALSE(some_free(g, first, last)) << "edges " << i << " and " << j;
     }
     for (const Bvh::Node& node : g.ridge_tree().nodes()) {
-      if (node.count == 0 || !view.hidden(node.box)) continue;
+      if (node.count == 0 || !view.occluders().hide(node.box)) continue;
       ++count.groups;
       for (std::uint32_t k = 0; k < node.count; ++k) {
         const std::uint32_t j = g.ridge_tree().items()[node.first + k];
@@ -100,7 +100,7 @@ TEST(EdgeView, WhatTouchesAnOccluderAllAlongIsNotHidden) {
     for (std::size_t i = 0; i < g.ridges().size(); ++i) {
       if (ends_of(scene, g.ridges()[i]) != first) continue;
       view.begin(static_cast<int>(i));
-      return view.hidden_by_one_of(faces, last[0], last[1]);
+      return view.occluders().hide(faces, last[0], last[1]);
     }
     ADD_FAILURE() << "no such edge";
     return false;

@@ -129,18 +129,6 @@ struct Answers {
         events(scene, skeleton, ends) {}
 };
 
-/// A point on a grid of 2^-8, so that steps of a 1024th of a path are exact.
-Point grid_point(testing::Random& random, const Scene& scene, double beyond) {
-  Point p;
-  for (int i = 0; i < 3; ++i) {
-    const double low = scene.bounds()[0][i];
-    const double high = scene.bounds()[1][i];
-    const double margin = beyond * (high - low);
-    p[i] = std::round(256 * random.uniform(low - margin, high + margin)) / 256;
-  }
-  return p;
-}
-
 std::string difference(const View& x, const View& y) {
   std::string out;
   const auto add = [&](const char* what, const auto& p, const auto& q) {
@@ -196,8 +184,8 @@ TEST(ViewEvents, AreWhereTheViewChanges) {
     testing::Random random(seed);
     for (int path = 0; path < 2; ++path) {
       const double beyond = path == 0 ? 0.1 : 1.5;
-      const Point a = grid_point(random, answers.scene, beyond);
-      const Point b = grid_point(random, answers.scene, beyond);
+      const Point a = testing::grid_point(random, answers.scene, beyond);
+      const Point b = testing::grid_point(random, answers.scene, beyond);
       follow(answers, viewer, a, b, 128, tally);
     }
   }
@@ -222,8 +210,8 @@ TEST(ViewEvents, PiecesAndContactsAgree) {
     const ViewEvents by_contacts(answers.scene, answers.skeleton, empty);
     testing::Random random(seed);
     for (int path = 0; path < 4; ++path) {
-      const Point a = grid_point(random, answers.scene, 0.5);
-      const Point b = grid_point(random, answers.scene, 0.5);
+      const Point a = testing::grid_point(random, answers.scene, 0.5);
+      const Point b = testing::grid_point(random, answers.scene, 0.5);
       const auto found = answers.events.crossed(a, b);
       EXPECT_EQ(found, by_contacts.crossed(a, b)) << seed << " path " << path;
       events += found.size();
@@ -238,8 +226,8 @@ TEST(ViewEvents, PiecesAndContactsAgree) {
 TEST(ViewEvents, DoNotDependOnThePathsDirection) {
   const Answers answers(testing::random_polytopes(9, 25, {.density = 0.2}));
   testing::Random random(9);
-  const Point a = grid_point(random, answers.scene, 0.1);
-  const Point b = grid_point(random, answers.scene, 0.1);
+  const Point a = testing::grid_point(random, answers.scene, 0.1);
+  const Point b = testing::grid_point(random, answers.scene, 0.1);
   const auto there = answers.events.crossed(a, b);
   auto back = answers.events.crossed(b, a);
   std::ranges::reverse(back);
@@ -275,8 +263,8 @@ TEST(ViewEvents, CrossedTwiceDoNotSeparate) {
   testing::Random random(4);
   int undone = 0;
   for (int path = 0; path < 5; ++path) {
-    const Point a = grid_point(random, answers.scene, 0.3);
-    const Point b = grid_point(random, answers.scene, 0.3);
+    const Point a = testing::grid_point(random, answers.scene, 0.3);
+    const Point b = testing::grid_point(random, answers.scene, 0.3);
     const auto all = answers.events.crossed(a, b);
     const auto between = answers.events.separating(a, b);
     for (const ViewEvent& e : all) {

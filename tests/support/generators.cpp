@@ -630,4 +630,15 @@ void write_obj(const std::string& path, const PolygonSoup& soup) {
   if (std::fflush(file.get()) != 0) throw std::runtime_error(path + ": write failed");
 }
 
+Point grid_point(Random& random, const Scene& scene, double beyond) {
+  Point p;
+  for (int i = 0; i < 3; ++i) {
+    const double low = scene.bounds()[0][i];
+    const double high = scene.bounds()[1][i];
+    const double margin = beyond * (high - low);
+    p[i] = std::round(256 * random.uniform(low - margin, high + margin)) / 256;
+  }
+  return p;
+}
+
 }  // namespace sightline::testing

@@ -143,4 +143,8 @@ struct GridCityOptions {
 /// std::runtime_error when the file cannot be written.
 void write_obj(const std::string& path, const PolygonSoup& soup);
 
+/// A point in the scene's box, or that far beyond it, in units of its size; on a grid of
+/// 2^-8, so that steps of a 1024th of a way between two are exact.
+[[nodiscard]] Point grid_point(Random& random, const Scene& scene, double beyond);
+
 }  // namespace sightline::testing

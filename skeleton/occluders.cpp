@@ -1,0 +1,123 @@
+#include <algorithm>
+
+#include "skeleton/occluder_shadow_internal.h"
+#include "skeleton/occluders_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+constexpr std::size_t kRecent = 16;  // speed only
+
+std::array<double, 3> relative(const std::array<double, 3>& p, const Point& origin) {
+  return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
+}
+
+}  // namespace
+
+Occluders::Occluders(const Generators& generators)
+    : g_(generators),
+      shadow_index_(generators.scene().objects().size() +
+                        generators.scene().facets().size() +
+                        generators.scene().faces().size(),
+                    -2) {}
+
+void Occluders::begin(std::span<const Point> viewpoints,
+                      std::span<const std::int32_t> own_objects,
+                      std::span<const std::int32_t> own_facets) {
+  viewpoints_.assign(viewpoints.begin(), viewpoints.end());
+  own_objects_.assign(own_objects.begin(), own_objects.end());
+  own_facets_.assign(own_facets.begin(), own_facets.end());
+  for (const std::int64_t key : shadow_keys_) shadow_index_[key] = -2;
+  shadow_keys_.clear();
+  shadows_.clear();
+  recent_.clear();
+}
+
+// -1 for the viewpoints' own, and where nothing is hidden.
+int Occluders::shadow_of(int face) {
+  const std::int64_t key = occluder_key(g_, face);
+  std::int32_t& index = shadow_index_[key];
+  if (index != -2) return index;
+  shadow_keys_.push_back(key);
+  index = -1;
+  const Face& f = g_.scene().faces()[face];
+  const bool solid = g_.convex_solid(f.object);
+  const bool own = solid ? share(std::span(&f.object, 1), own_objects_)
+                         : share(std::span(&f.facet, 1), own_facets_);
+  if (own) return -1;
+  std::array<Shadow, 2> shadows;
+  for (std::size_t k = 0; k < viewpoints_.size(); ++k) {
+    shadows[k] = solid ? solid_shadow(g_, f.object, viewpoints_[k])
+                       : facet_shadow(g_, face, viewpoints_[k]);
+    if (shadows[k].planes.empty()) return -1;
+  }
+  index = static_cast<int>(shadows_.size());
+  shadows_.push_back(std::move(shadows));
+  return index;
+}
+
+bool Occluders::hides(int shadow, const Box& box) const {
+  bool inside = false;
+  for (std::size_t k = 0; k < viewpoints_.size(); ++k) {
+    const Hides here = shadows_[shadow][k].hides(relative(box.min, viewpoints_[k]),
+                                                 relative(box.max, viewpoints_[k]));
+    if (here == Hides::No) return false;
+    inside |= here == Hides::Inside;
+  }
+  return inside;
+}
+
+bool Occluders::hides(int shadow, const Point& q0, const Point& q1) const {
+  bool inside = false;
+  for (std::size_t k = 0; k < viewpoints_.size(); ++k) {
+    for (const Point& q : {q0, q1}) {
+      const auto at = relative({q[0], q[1], q[2]}, viewpoints_[k]);
+      const Hides here = shadows_[shadow][k].hides(at, at);
+      if (here == Hides::No) return false;
+      inside |= here == Hides::Inside;
+    }
+  }
+  return inside;
+}
+
+bool Occluders::hide(const Box& box) {
+  for (std::size_t k = 0; k < recent_.size(); ++k) {
+    if (!hides(recent_[k], box)) continue;
+    const auto at = recent_.begin() + static_cast<std::ptrdiff_t>(k);
+    std::rotate(recent_.begin(), at, at + 1);
+    return true;
+  }
+  return false;
+}
+
+bool Occluders::hide(const Point& q0, const Point& q1) const {
+  return std::any_of(recent_.begin(), recent_.end(),
+                     [&](int shadow) { return hides(shadow, q0, q1); });
+}
+
+bool Occluders::hide(std::span<const std::int32_t> faces, const Point& q0,
+                     const Point& q1) {
+  int last = -1;
+  for (const std::int32_t face : faces) {
+    const int shadow = shadow_of(face);
+    if (shadow < 0 || shadow == last) continue;
+    last = shadow;
+    if (!hides(shadow, q0, q1)) continue;
+    keep(shadow);
+    return true;
+  }
+  return false;
+}
+
+void Occluders::remember(int face) {
+  const int shadow = shadow_of(face);
+  if (shadow >= 0) keep(shadow);
+}
+
+void Occluders::keep(int shadow) {
+  if (std::find(recent_.begin(), recent_.end(), shadow) != recent_.end()) return;
+  if (recent_.size() >= kRecent) recent_.pop_back();
+  recent_.insert(recent_.begin(), shadow);
+}
+
+}  // namespace sightline::internal

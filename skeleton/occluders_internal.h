@@ -1,0 +1,55 @@
+// The convex occluders that a viewpoint, or an edge by both of its ends, looks at:
+// whether one of them hides a group of edges or a segment.  Those that hid something last
+// are tried first.
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "skeleton/generators_internal.h"
+#include "skeleton/shaft_internal.h"
+
+namespace sightline::internal {
+
+/// Seen from a point, what is behind a convex occluder is convex.  So where the segments
+/// from all viewpoints to both ends of a segment, or to all corners of a box, meet it,
+/// those between their hulls do; and where one of them passes its inside, all do that are
+/// between inner points.  Keeps scratch, so one per thread.
+class Occluders {
+ public:
+  explicit Occluders(const Generators& generators);
+
+  /// Looks from one point or two from now on.  What these belong to hides nothing: convex
+  /// solids by object, other faces by facet.
+  void begin(std::span<const Point> viewpoints, std::span<const std::int32_t> own_objects,
+             std::span<const std::int32_t> own_facets);
+
+  /// One that hid something lately hides each segment in the box.
+  [[nodiscard]] bool hide(const Box& box);
+  /// The segment q0 q1.
+  [[nodiscard]] bool hide(const Point& q0, const Point& q1) const;
+  /// One that some of these faces belong to hides q0 q1.
+  [[nodiscard]] bool hide(std::span<const std::int32_t> faces, const Point& q0,
+                          const Point& q1);
+  /// A face's occluder is tried first from now on.
+  void remember(int face);
+
+ private:
+  [[nodiscard]] int shadow_of(int face);
+  [[nodiscard]] bool hides(int shadow, const Box& box) const;
+  [[nodiscard]] bool hides(int shadow, const Point& q0, const Point& q1) const;
+  void keep(int shadow);
+
+  const Generators& g_;
+  std::vector<Point> viewpoints_;
+  std::vector<std::int32_t> own_objects_, own_facets_;
+  std::vector<std::array<Shadow, 2>> shadows_;  // by viewpoint
+  std::vector<std::int32_t> shadow_index_;      // by occluder, -2 unknown, -1 none
+  std::vector<std::int64_t> shadow_keys_;       // to reset
+  std::vector<std::int32_t> recent_;  // those that hid something last come first
+};
+
+}  // namespace sightline::internal
