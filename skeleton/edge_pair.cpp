@@ -63,19 +63,24 @@ void EdgePairs::visit(int i, const std::function<bool()>& stop,
   const Bvh& tree = g_.ridge_tree();
   if (tree.empty()) return;
   view_.begin(i);
-  std::uint32_t stack[128];
+  struct {
+    std::uint32_t node;
+    EdgeView::Pieces open;  // of the first edge: from which the parent is not hidden
+  } stack[128];
   int top = 0;
-  stack[top++] = 0;
+  stack[top++] = {0, view_.pieces()};
   while (top > 0) {
-    const std::uint32_t at = stack[--top];
+    const auto [at, from] = stack[--top];
     const Bvh::Node& node = tree.node(at);
     if (groups_[at].highest <= i) continue;
     if (!selection_.may_pair(i, view_.box(), at, node.box)) continue;
-    if (view_.never_touched_from(node.box) || view_.occluders().hide(node.box)) continue;
+    if (view_.never_touched_from(node.box) || view_.hides(node.box)) continue;
+    open_ = view_.open(from, node.box);
+    if (from != 0 && open_ == 0) continue;
     if (groups_[at].begins) view_.look_at(node.box);
     if (node.count == 0) {
-      stack[top++] = node.first + 1;
-      stack[top++] = node.first;
+      stack[top++] = {node.first + 1, open_};
+      stack[top++] = {node.first, open_};
       continue;
     }
     if (stop()) return;
@@ -127,7 +132,7 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   outer.last_planes = {values(s.a, p0, p1), values(s.b, p0, p1)};
   if (never_touches(s, outer.last_planes)) return;
   if (share_facet(r, s)) return;
-  if (view_.occluders().hide(q0, q1)) return;
+  if (view_.hides(q0, q1)) return;
   if (!gather(outer)) return;
   visit_middles(outer, false, out);
   // Where the middle edge and the last are coplanar, s is constant: the other way round.
@@ -152,14 +157,12 @@ bool EdgePairs::gather(const Outer& outer) {
   const Point& p1 = view_.end(1);
   const Point& q0 = scene_.point(last.points[0]);
   const Point& q1 = scene_.point(last.points[1]);
-  const Shaft shaft(p0, p1, q0, q1);
   const bool outer_through = selection_.goes_through(i) || selection_.goes_through(j);
-  if (!outer_through && !shaft.may_meet(selection_.through_box) &&
+  if (!outer_through && !Shaft(p0, p1, q0, q1).may_meet(selection_.through_box) &&
       !selection_.may_reach(view_.box(), box_of(std::array<Point, 2>{q0, q1}))) {
     return false;
   }
-  view_.faces_between(shaft, faces_);
-  if (view_.occluders().hide(faces_, q0, q1)) return false;
+  if (!view_.look(open_, q0, q1, first_parts_, faces_)) return false;
   const auto linear = [](const PlaneValues& v) {
     return PairCells::Linear{v.at0.value, v.at1.value, std::max(v.at0.error, v.at1.error),
                              v.sign0 == Sign::Zero, v.sign1 == Sign::Zero};
@@ -187,7 +190,7 @@ bool EdgePairs::gather(const Outer& outer) {
     cells_.add_face(face, occluder_key(g_, face), front_only, linear(p), linear(q),
                     cell_sides_);
   }
-  cells_.divide([&](int m) {
+  const std::function<bool(int)> is_middle = [&](int m) {
     if (middle_stamp_[m] == pair_stamp_) return middle_allowed_[m] != 0;
     middle_stamp_[m] = pair_stamp_;
     const Ridge& ridge = g_.ridges()[m];
@@ -202,8 +205,17 @@ bool EdgePairs::gather(const Outer& outer) {
         (outer_through || selection_.by_lines || selection_.goes_through(m)) &&
         !share_facet(ridge, first) && !share_facet(ridge, last);
     return middle_allowed_[m] != 0;
-  });
-  if (cells_.hidden_by() >= 0) view_.occluders().remember(cells_.hidden_by());
+  };
+  for (std::size_t k = 0; k < first_parts_.size(); ++k) {
+    const EdgeView::Part& part = first_parts_[k];
+    if (part.hidden_by >= 0) {
+      cells_.hide(part.from, part.to, occluder_key(g_, part.hidden_by));
+      continue;
+    }
+    const int hidden_by = cells_.divide(part.from, part.to, is_middle);
+    if (hidden_by >= 0) view_.remember(k, hidden_by);
+  }
+  cells_.finish();
   return !cells_.middles().empty();
 }
 

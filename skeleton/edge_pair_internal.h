@@ -123,8 +123,10 @@ class EdgePairs {
   };
   [[nodiscard]] static std::vector<Group> ridge_groups(const Bvh& tree);
   std::vector<Group> groups_;
+  EdgeView::Pieces open_ = 0;  // of the first edge, for the group at hand
 
   // The pair at hand.
+  std::vector<EdgeView::Part> first_parts_;  // of the first edge
   std::vector<std::int32_t> faces_;
   std::uint32_t pair_stamp_ = 0;
   std::vector<std::uint32_t> face_stamp_;

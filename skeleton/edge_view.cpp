@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <bit>
 
 #include "skeleton/edge_view_internal.h"
+#include "skeleton/occluder_shadow_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -8,6 +10,9 @@ namespace {
 // Speed only: longer lists are not kept: the tree of faces is asked for each edge of the
 // group.
 constexpr std::size_t kLongestList = 512;
+// A long edge is looked at by pieces when so many faces are between it and the group:
+// fewer are sorted out pair by pair.
+constexpr std::size_t kManyFaces = 48;
 
 }  // namespace
 
@@ -16,25 +21,56 @@ std::array<bool, 2> touched_on(const Ridge& r) {
           r.contact(Sign::Positive, Sign::Positive) != EdgeContact::None};
 }
 
-EdgeView::EdgeView(const Generators& generators)
-    : g_(generators), occluders_(generators) {}
+EdgeView::EdgeView(const Generators& generators) : g_(generators), cutter_(generators) {
+  views_.emplace_back(g_);
+}
 
 void EdgeView::begin(int ridge) {
   const Scene& scene = g_.scene();
-  const Ridge& r = g_.ridges()[ridge];
-  ends_ = {scene.point(r.points[0]), scene.point(r.points[1])};
+  ridge_ = &g_.ridges()[ridge];
+  ends_ = {scene.point(ridge_->points[0]), scene.point(ridge_->points[1])};
   box_ = box_of(ends_);
   for (int k = 0; k < 2; ++k) {
-    wedge_[k] = plane_seen_from(ends_[0], scene.point(r.points[1 - k]),
-                                scene.point(r.points[k]), scene.point(r.thirds[k]));
+    wedge_[k] =
+        plane_seen_from(ends_[0], scene.point(ridge_->points[1 - k]),
+                        scene.point(ridge_->points[k]), scene.point(ridge_->thirds[k]));
   }
-  touched_on_ = touched_on(r);
-  occluders_.begin(ends_, r.objects, r.all_facets);
+  touched_on_ = touched_on(*ridge_);
+  begin_piece(0, 0, 1);
+  piece_count_ = cutter_.pieces(ends_[0], ends_[1]);
+  pieces_ = 0;
+  if (piece_count_ == 1) return;
+  for (int k = 0; k < piece_count_; ++k) {
+    begin_piece(k + 1, static_cast<double>(k) / piece_count_,
+                static_cast<double>(k + 1) / piece_count_);
+    pieces_ |= Pieces(1) << k;
+  }
+}
+
+void EdgeView::begin_piece(std::size_t view, double from, double to) {
+  while (views_.size() <= view) views_.emplace_back(g_);
+  PieceView& v = views_[view];
+  v.piece = piece_of(ends_[0], ends_[1], from, to);
+  v.occluders.begin(v.piece.corners(), ridge_->objects, ridge_->all_facets);
 }
 
 void EdgeView::look_at(const Box& group) {
   group_ = group;
-  listed_ = false;
+  decided_ = cut_ = false;
+  for (int k = 0; k <= piece_count_ && k < static_cast<int>(views_.size()); ++k) {
+    views_[k].listed = false;
+  }
+}
+
+EdgeView::Pieces EdgeView::open(Pieces pieces, const Box& box) {
+  Pieces open = pieces;
+  for (Pieces left = pieces; left != 0; left &= left - 1) {
+    const int k = std::countr_zero(left);
+    PieceView& view = views_[k + 1];
+    view.hidden_by = view.occluders.hider(box);
+    if (view.hidden_by >= 0) open &= ~(Pieces(1) << k);
+  }
+  return open;
 }
 
 // All of the box is behind both planes of the wedge or in front of both.
@@ -48,34 +84,80 @@ bool EdgeView::never_touched_from(const Box& box) const {
           wedge_[1].positive_on(c, b.half));
 }
 
-void EdgeView::list_faces() {
-  listed_ = true;
-  list_.clear();
-  const Shaft hull(ends_[0], ends_[1], group_);
+void EdgeView::list_faces(PieceView& view) {
+  view.listed = true;
+  view.list.clear();
+  const Shaft hull(view.piece.point(0), view.piece.point(1), group_, view.piece.pad());
   g_.face_tree().traverse(
-      [&](const Box& box) { return list_.size() <= kLongestList && hull.may_meet(box); },
+      [&](const Box& box) {
+        return view.list.size() <= kLongestList && hull.may_meet(box);
+      },
       [&](std::uint32_t item) {
         const int face = static_cast<int>(item);
         const Box& box = g_.face_box(face);
-        if (hull.may_meet(box)) list_.push_back({box, face});
+        if (hull.may_meet(box)) view.list.push_back({box, face});
       });
-  too_many_ = list_.size() > kLongestList;
+  view.too_many = view.list.size() > kLongestList;
 }
 
-void EdgeView::faces_between(const Shaft& hull, std::vector<std::int32_t>& faces) {
-  if (!listed_) list_faces();
-  faces.clear();
-  if (too_many_) {
+// Replaces between_ by the faces whose boxes may meet the hull of the piece and an edge
+// of the group.
+void EdgeView::faces_between(PieceView& view, const Shaft& hull) {
+  if (!view.listed) list_faces(view);
+  between_.clear();
+  if (view.too_many) {
     g_.face_tree().traverse([&](const Box& box) { return hull.may_meet(box); },
                             [&](std::uint32_t item) {
                               const int face = static_cast<int>(item);
-                              if (hull.may_meet(g_.face_box(face))) faces.push_back(face);
+                              if (hull.may_meet(g_.face_box(face)))
+                                between_.push_back(face);
                             });
     return;
   }
-  for (const Listed& l : list_) {
-    if (hull.may_meet(l.box)) faces.push_back(l.face);
+  for (const Listed& l : view.list) {
+    if (hull.may_meet(l.box)) between_.push_back(l.face);
   }
+}
+
+bool EdgeView::look(Pieces open, const Point& q0, const Point& q1,
+                    std::vector<Part>& parts, std::vector<std::int32_t>& faces) {
+  if (!decided_) {
+    decided_ = true;
+    list_faces(whole());
+    cut_ = pieces_ != 0 && whole().list.size() > kManyFaces;
+  }
+  parts.clear();
+  faces.clear();
+  bool some_open = false;
+  for (int k = 0; k < (cut_ ? piece_count_ : 1); ++k) {
+    PieceView& view = part_view(k);
+    const EdgePiece& piece = view.piece;
+    int hidden_by = -1;
+    if (cut_) {
+      hidden_by = (open >> k & 1u) == 0 ? view.hidden_by : view.occluders.hider(q0, q1);
+    }
+    if (hidden_by < 0) {
+      faces_between(view, Shaft(piece.point(0), piece.point(1), q0, q1, piece.pad()));
+      hidden_by = view.occluders.hider(between_, q0, q1);
+    }
+    if (hidden_by < 0) {
+      some_open = true;
+      faces.insert(faces.end(), between_.begin(), between_.end());
+    }
+    parts.push_back({piece.from, piece.to, hidden_by});
+  }
+  if (!some_open) return false;
+  if (!cut_) return true;
+  // What hides a part is asked for with the curves that pass it.
+  int last = -1;
+  for (const Part& part : parts) {
+    if (part.hidden_by < 0 || part.hidden_by == last) continue;
+    last = part.hidden_by;
+    add_occluder_faces(g_, last, faces);
+  }
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return true;
 }
 
 }  // namespace sightline::internal

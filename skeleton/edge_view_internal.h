@@ -1,13 +1,15 @@
-// What one edge sees: from where no line can touch it, what hides others from it, and
-// which faces are on the way to a group of them.  In bounded doubles: what is left out is
-// proved to be.
+// What one edge sees: from where no line can touch it, what hides others from it or from
+// pieces of it, and which faces are on the way to a group of them.  In bounded doubles:
+// what is left out is proved to be.
 
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
+#include "skeleton/edge_pieces_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/occluders_internal.h"
 #include "skeleton/shaft_internal.h"
@@ -25,40 +27,80 @@ class EdgeView {
 
   /// Looks from this ridge on.
   void begin(int ridge);
-  /// Looks at a group of edges: those inside the box.
-  void look_at(const Box& group);
 
   [[nodiscard]] const Box& box() const { return box_; }
   [[nodiscard]] const Point& end(int k) const { return ends_[k]; }
 
   /// No point of the box is on a line that touches the edge.
   [[nodiscard]] bool never_touched_from(const Box& box) const;
-  /// What hides from the whole edge.
-  [[nodiscard]] Occluders& occluders() { return occluders_; }
+  /// One occluder that hid something lately hides from the whole edge each segment in the
+  /// box, the segment q0 q1.
+  [[nodiscard]] bool hides(const Box& box) { return whole().occluders.hider(box) >= 0; }
+  [[nodiscard]] bool hides(const Point& q0, const Point& q1) {
+    return whole().occluders.hider(q0, q1) >= 0;
+  }
 
-  /// Replaces `faces` by those whose boxes may meet the hull of the edge and one of the
-  /// group.
-  void faces_between(const Shaft& hull, std::vector<std::int32_t>& faces);
+  /// Sets of pieces of the edge, by bit; an edge that is left whole has none.
+  using Pieces = std::uint64_t;
+  [[nodiscard]] Pieces pieces() const { return pieces_; }
+  /// Those of them from which nothing known hides the box.  Boxes are asked from outer to
+  /// inner ones, with what was left of the outer one: what hid a piece last is kept.
+  [[nodiscard]] Pieces open(Pieces pieces, const Box& box);
+
+  /// Looks at a group of edges: those inside the box.
+  void look_at(const Box& group);
+
+  /// A part of the edge as it looks at an edge of the group.
+  struct Part {
+    double from, to;
+    int hidden_by;  ///< a face of an occluder that hides the other edge from it, or -1
+  };
+  /// Tells the edge's parts, in order: all of it where few faces are between it and the
+  /// group, else its pieces, of which `open` are not known to be hidden; for those that
+  /// are not, appends the faces between, by boxes.  False when all are hidden.
+  [[nodiscard]] bool look(Pieces open, const Point& q0, const Point& q1,
+                          std::vector<Part>& parts, std::vector<std::int32_t>& faces);
+  /// The occluder of this face hid an edge of the group from a part.
+  void remember(std::size_t part, int face) { part_view(part).occluders.remember(face); }
 
  private:
-  void list_faces();
+  // Those faces that may be between a piece and the group, listed when asked for.
+  struct Listed {
+    Box box;
+    std::int32_t face;
+  };
+  struct PieceView {
+    explicit PieceView(const Generators& g) : occluders(g) {}
+    EdgePiece piece;
+    Occluders occluders;
+    int hidden_by = -1;
+    bool listed = false, too_many = false;
+    std::vector<Listed> list;
+  };
+
+  [[nodiscard]] PieceView& whole() { return views_.front(); }
+  [[nodiscard]] PieceView& part_view(std::size_t part) {
+    return views_[cut_ ? part + 1 : 0];
+  }
+  void begin_piece(std::size_t view, double from, double to);
+  void list_faces(PieceView& view);
+  void faces_between(PieceView& view, const Shaft& hull);
 
   const Generators& g_;
+  EdgeCutter cutter_;
+  const Ridge* ridge_ = nullptr;
   std::array<Point, 2> ends_;
   Box box_;
   std::array<BoundedPlane, 2> wedge_;
   std::array<bool, 2> touched_on_{};
 
-  Occluders occluders_;
+  std::deque<PieceView> views_;  // of the whole edge, then of its pieces
+  int piece_count_ = 0;
+  Pieces pieces_ = 0;
 
-  // The faces between the edge and the group, listed when they are asked for.
-  struct Listed {
-    Box box;
-    std::int32_t face;
-  };
   Box group_;
-  bool listed_ = false, too_many_ = false;
-  std::vector<Listed> list_;
+  bool cut_ = false, decided_ = false;  // the group is looked at by pieces
+  std::vector<std::int32_t> between_;
 };
 
 }  // namespace sightline::internal

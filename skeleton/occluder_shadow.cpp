@@ -70,6 +70,20 @@ std::int64_t occluder_key(const Generators& g, int face) {
   return objects + static_cast<std::int64_t>(scene.facets().size()) + face;
 }
 
+void add_occluder_faces(const Generators& g, int face, std::vector<std::int32_t>& faces) {
+  const Scene& scene = g.scene();
+  const Face& f = scene.faces()[face];
+  if (g.convex_solid(f.object)) {
+    const auto& all = scene.objects()[f.object].faces;
+    faces.insert(faces.end(), all.begin(), all.end());
+  } else if (!g.facet_outline(f.facet).empty()) {
+    const auto& all = scene.facets()[f.facet].faces;
+    faces.insert(faces.end(), all.begin(), all.end());
+  } else {
+    faces.push_back(face);
+  }
+}
+
 int propose_occluder(const Generators& g, const Point& from, const Point& target,
                      std::span<const std::uint32_t> facet_stamp, std::uint32_t stamp) {
   const Scene& scene = g.scene();

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "skeleton/generators_internal.h"
 #include "skeleton/shaft_internal.h"
@@ -22,6 +23,10 @@ namespace sightline::internal {
 
 /// What one occluder is known by: its convex solid, convex facet, or face.
 [[nodiscard]] std::int64_t occluder_key(const Generators& generators, int face);
+
+/// Appends all faces of the occluder that a face belongs to.
+void add_occluder_faces(const Generators& generators, int face,
+                        std::vector<std::int32_t>& faces);
 
 /// The nearest face between two points that plain double arithmetic finds, faces of
 /// facets with facet_stamp[f] == stamp left out; -1 for none.  A proposal only.

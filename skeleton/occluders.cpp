@@ -30,6 +30,7 @@ void Occluders::begin(std::span<const Point> viewpoints,
   for (const std::int64_t key : shadow_keys_) shadow_index_[key] = -2;
   shadow_keys_.clear();
   shadows_.clear();
+  faces_.clear();
   recent_.clear();
 }
 
@@ -45,22 +46,25 @@ int Occluders::shadow_of(int face) {
   const bool own = solid ? share(std::span(&f.object, 1), own_objects_)
                          : share(std::span(&f.facet, 1), own_facets_);
   if (own) return -1;
-  std::array<Shadow, 2> shadows;
-  for (std::size_t k = 0; k < viewpoints_.size(); ++k) {
-    shadows[k] = solid ? solid_shadow(g_, f.object, viewpoints_[k])
-                       : facet_shadow(g_, face, viewpoints_[k]);
-    if (shadows[k].planes.empty()) return -1;
+  const std::size_t before = shadows_.size();
+  for (const Point& at : viewpoints_) {
+    shadows_.push_back(solid ? solid_shadow(g_, f.object, at)
+                             : facet_shadow(g_, face, at));
+    if (!shadows_.back().planes.empty()) continue;
+    shadows_.resize(before);
+    return -1;
   }
-  index = static_cast<int>(shadows_.size());
-  shadows_.push_back(std::move(shadows));
+  index = static_cast<int>(faces_.size());
+  faces_.push_back(face);
   return index;
 }
 
 bool Occluders::hides(int shadow, const Box& box) const {
   bool inside = false;
-  for (std::size_t k = 0; k < viewpoints_.size(); ++k) {
-    const Hides here = shadows_[shadow][k].hides(relative(box.min, viewpoints_[k]),
-                                                 relative(box.max, viewpoints_[k]));
+  const auto all = shadows(shadow);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Hides here = all[k].hides(relative(box.min, viewpoints_[k]),
+                                    relative(box.max, viewpoints_[k]));
     if (here == Hides::No) return false;
     inside |= here == Hides::Inside;
   }
@@ -69,10 +73,11 @@ bool Occluders::hides(int shadow, const Box& box) const {
 
 bool Occluders::hides(int shadow, const Point& q0, const Point& q1) const {
   bool inside = false;
-  for (std::size_t k = 0; k < viewpoints_.size(); ++k) {
+  const auto all = shadows(shadow);
+  for (std::size_t k = 0; k < all.size(); ++k) {
     for (const Point& q : {q0, q1}) {
       const auto at = relative({q[0], q[1], q[2]}, viewpoints_[k]);
-      const Hides here = shadows_[shadow][k].hides(at, at);
+      const Hides here = all[k].hides(at, at);
       if (here == Hides::No) return false;
       inside |= here == Hides::Inside;
     }
@@ -80,22 +85,23 @@ bool Occluders::hides(int shadow, const Point& q0, const Point& q1) const {
   return inside;
 }
 
-bool Occluders::hide(const Box& box) {
+int Occluders::hider(const Box& box) {
   for (std::size_t k = 0; k < recent_.size(); ++k) {
     if (!hides(recent_[k], box)) continue;
     const auto at = recent_.begin() + static_cast<std::ptrdiff_t>(k);
     std::rotate(recent_.begin(), at, at + 1);
-    return true;
+    return faces_[recent_.front()];
   }
-  return false;
+  return -1;
 }
 
-bool Occluders::hide(const Point& q0, const Point& q1) const {
-  return std::any_of(recent_.begin(), recent_.end(),
-                     [&](int shadow) { return hides(shadow, q0, q1); });
+int Occluders::hider(const Point& q0, const Point& q1) const {
+  const auto at = std::find_if(recent_.begin(), recent_.end(),
+                               [&](int shadow) { return hides(shadow, q0, q1); });
+  return at == recent_.end() ? -1 : faces_[*at];
 }
 
-bool Occluders::hide(std::span<const std::int32_t> faces, const Point& q0,
+int Occluders::hider(std::span<const std::int32_t> faces, const Point& q0,
                      const Point& q1) {
   int last = -1;
   for (const std::int32_t face : faces) {
@@ -104,9 +110,9 @@ bool Occluders::hide(std::span<const std::int32_t> faces, const Point& q0,
     last = shadow;
     if (!hides(shadow, q0, q1)) continue;
     keep(shadow);
-    return true;
+    return faces_[shadow];
   }
-  return false;
+  return -1;
 }
 
 void Occluders::remember(int face) {

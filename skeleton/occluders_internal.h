@@ -1,6 +1,6 @@
-// The convex occluders that a viewpoint, or an edge by both of its ends, looks at:
-// whether one of them hides a group of edges or a segment.  Those that hid something last
-// are tried first.
+// The convex occluders that a viewpoint, or an edge by the ends of itself or of a piece,
+// looks at: whether one of them hides a group of edges or a segment.  Those that hid
+// something last are tried first.
 
 #pragma once
 
@@ -22,23 +22,26 @@ class Occluders {
  public:
   explicit Occluders(const Generators& generators);
 
-  /// Looks from one point or two from now on.  What these belong to hides nothing: convex
-  /// solids by object, other faces by facet.
+  /// Looks from all points of these points' hull from now on.  What they belong to hides
+  /// nothing: convex solids by object, other faces by facet.
   void begin(std::span<const Point> viewpoints, std::span<const std::int32_t> own_objects,
              std::span<const std::int32_t> own_facets);
 
-  /// One that hid something lately hides each segment in the box.
-  [[nodiscard]] bool hide(const Box& box);
+  /// A face of one that hid something lately and hides each segment in the box; -1.
+  [[nodiscard]] int hider(const Box& box);
   /// The segment q0 q1.
-  [[nodiscard]] bool hide(const Point& q0, const Point& q1) const;
-  /// One that some of these faces belong to hides q0 q1.
-  [[nodiscard]] bool hide(std::span<const std::int32_t> faces, const Point& q0,
+  [[nodiscard]] int hider(const Point& q0, const Point& q1) const;
+  /// Of one that some of these faces belong to.
+  [[nodiscard]] int hider(std::span<const std::int32_t> faces, const Point& q0,
                           const Point& q1);
   /// A face's occluder is tried first from now on.
   void remember(int face);
 
  private:
   [[nodiscard]] int shadow_of(int face);
+  [[nodiscard]] std::span<const Shadow> shadows(int shadow) const {
+    return std::span(shadows_).subspan(shadow * viewpoints_.size(), viewpoints_.size());
+  }
   [[nodiscard]] bool hides(int shadow, const Box& box) const;
   [[nodiscard]] bool hides(int shadow, const Point& q0, const Point& q1) const;
   void keep(int shadow);
@@ -46,10 +49,11 @@ class Occluders {
   const Generators& g_;
   std::vector<Point> viewpoints_;
   std::vector<std::int32_t> own_objects_, own_facets_;
-  std::vector<std::array<Shadow, 2>> shadows_;  // by viewpoint
-  std::vector<std::int32_t> shadow_index_;      // by occluder, -2 unknown, -1 none
-  std::vector<std::int64_t> shadow_keys_;       // to reset
-  std::vector<std::int32_t> recent_;  // those that hid something last come first
+  std::vector<Shadow> shadows_;             // from each viewpoint, occluder by occluder
+  std::vector<std::int32_t> faces_;         // one of each occluder with shadows
+  std::vector<std::int32_t> shadow_index_;  // by occluder, -2 unknown, -1 none
+  std::vector<std::int64_t> shadow_keys_;   // to reset
+  std::vector<std::int32_t> recent_;        // those that hid something last come first
 };
 
 }  // namespace sightline::internal

@@ -30,7 +30,7 @@ struct Signs {
   }
 };
 
-// Positions are multiples of 2^-kDeepest, so each value is off by three roundings beside
+// Positions are exact, so each value is off by three roundings beside
 // the error of the ends.
 Signs<2> signs(const PairCells::Linear& l, double x0, double x1) {
   const double d = l.at1 - l.at0;
@@ -92,6 +92,9 @@ void PairCells::begin(const Edge& first, const Edge& last) {
   faces_.clear();
   sides_.clear();
   occluders_.clear();
+  leaves_.clear();
+  leaf_faces_.clear();
+  middles_.clear();
 }
 
 void PairCells::add_face(int face, std::int64_t occluder, bool front_only,
@@ -109,16 +112,26 @@ void PairCells::add_face(int face, std::int64_t occluder, bool front_only,
   sides_.insert(sides_.end(), sides.begin(), sides.end());
 }
 
-void PairCells::divide(const std::function<bool(int)>& is_middle) {
+int PairCells::divide(double s0, double s1, const std::function<bool(int)>& is_middle) {
   is_middle_ = &is_middle;
   masks_.resize(occluders_.size());
   list_.resize(faces_.size());
   for (std::size_t i = 0; i < list_.size(); ++i) list_[i] = static_cast<std::int32_t>(i);
-  leaves_.clear();
-  leaf_faces_.clear();
-  middles_.clear();
-  hidden_by_ = -1;
-  visit({0, 1, 0, 1}, 0, 0, list_.size());
+  return visit({s0, s1, 0, 1}, 0, 0, list_.size());
+}
+
+void PairCells::hide(double s0, double s1, std::int64_t occluder) {
+  Leaf leaf{{s0, s1, 0, 1}, static_cast<std::uint32_t>(leaf_faces_.size()), 0, true};
+  for (std::size_t i = 0; i < faces_.size(); ++i) {
+    if (occluders_[faces_[i].occluder] == occluder) {
+      leaf_faces_.push_back(static_cast<std::int32_t>(i));
+    }
+  }
+  leaf.count = static_cast<std::uint32_t>(leaf_faces_.size()) - leaf.first;
+  leaves_.push_back(leaf);
+}
+
+void PairCells::finish() {
   std::sort(middles_.begin(), middles_.end());
   middles_.erase(std::unique(middles_.begin(), middles_.end()), middles_.end());
 }
@@ -174,9 +187,10 @@ void PairCells::add_leaf(const Cell& cell, std::size_t begin, int occluder) {
   leaves_.push_back(leaf);
 }
 
-void PairCells::visit(const Cell& cell, int depth, std::size_t begin, std::size_t end) {
+// A face of the occluder that hides all of the cell, or -1.
+int PairCells::visit(const Cell& cell, int depth, std::size_t begin, std::size_t end) {
   if (never_touched(first_, cell.t0, cell.t1) || never_touched(last_, cell.s0, cell.s1)) {
-    return;
+    return -1;
   }
   const std::size_t kept = list_.size();
   mixed_.clear();
@@ -194,10 +208,9 @@ void PairCells::visit(const Cell& cell, int depth, std::size_t begin, std::size_
     const Face& face = faces_[list_[k]];
     const Corners& corners = masks_[face.occluder];
     if (corners.closed != 15 || corners.inside == 0) continue;
-    if (depth == 0) hidden_by_ = face.id;
     add_leaf(cell, kept, face.occluder);
     list_.resize(kept);
-    return;
+    return face.id;
   }
   std::sort(mixed_.begin(), mixed_.end());
   mixed_.erase(std::unique(mixed_.begin(), mixed_.end()), mixed_.end());
@@ -221,6 +234,7 @@ void PairCells::visit(const Cell& cell, int depth, std::size_t begin, std::size_
     }
   }
   list_.resize(kept);
+  return -1;
 }
 
 bool PairCells::faces_along(const BoundedForm& form, bool turned, double from, double to,

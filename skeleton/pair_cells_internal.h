@@ -51,13 +51,19 @@ class PairCells {
   /// the face's solid before they can leave it.
   void add_face(int face, std::int64_t occluder, bool front_only, const Linear& p,
                 const Linear& q, std::span<const Side> sides);
-  /// Divides the square.  `is_middle` says whether a ridge may be a middle edge.
-  void divide(const std::function<bool(int)>& is_middle);
+  /// With all faces added, takes the square part by part: segments from a part of the
+  /// first edge, s0 to s1 in multiples of 1/64, to the last one.  Divides it; a face of
+  /// the one occluder that hides all of it, or -1.  `is_middle` says whether a ridge may
+  /// be a middle edge.
+  [[nodiscard]] int divide(double s0, double s1,
+                           const std::function<bool(int)>& is_middle);
+  /// The part is known to be hidden by this occluder, of which all faces were added.
+  void hide(double s0, double s1, std::int64_t occluder);
+  /// After the last part.
+  void finish();
 
   /// Ridges whose curves pass cells that are not proved hidden, each once.
   [[nodiscard]] std::span<const std::int32_t> middles() const { return middles_; }
-  /// A face of the occluder that hides all, -1 if no single one does.
-  [[nodiscard]] int hidden_by() const { return hidden_by_; }
   /// Replaces `faces` by those that can block lines of the curve of a form with
   /// parameters from..to on the first edge; `turned`: the form and the parameters are
   /// those of the edges in the other order.
@@ -86,7 +92,7 @@ class PairCells {
     unsigned inside = 0;  ///< and surely pass its inside
   };
 
-  void visit(const Cell& cell, int depth, std::size_t begin, std::size_t end);
+  int visit(const Cell& cell, int depth, std::size_t begin, std::size_t end);
   [[nodiscard]] std::optional<Corners> passage(const Face& face, const Cell& cell);
   void add_leaf(const Cell& cell, std::size_t begin, int occluder);
 
@@ -102,7 +108,6 @@ class PairCells {
   std::vector<std::int32_t> middles_;
   std::vector<std::uint32_t> stamps_;  // of faces_, for faces_along
   std::uint32_t stamp_ = 0;
-  int hidden_by_ = -1;
   const std::function<bool(int)>* is_middle_ = nullptr;
 };
 

@@ -122,6 +122,9 @@ inline BoundedPlane plane_seen_from(const Point& origin, const Point& a, const P
 /// between the two.
 class Shaft {
  public:
+  /// How far the points of the first edge may be off, in each coordinate.
+  using Pad = std::array<double, 3>;
+
   Shaft(const Point& v, const Point& e0, const Point& e1) : origin_(v) {
     const std::array<Point, 3> points{v, e0, e1};
     const auto corners = bound(points);
@@ -134,8 +137,9 @@ class Shaft {
     add_axis(n.cross(w - u), corners);
   }
 
-  Shaft(const Point& p0, const Point& p1, const Point& q0, const Point& q1)
-      : origin_(p0) {
+  Shaft(const Point& p0, const Point& p1, const Point& q0, const Point& q1,
+        const Pad& pad = {})
+      : origin_(p0), pad_(pad) {
     const std::array<Point, 4> points{p0, p1, q0, q1};
     const auto corners = bound(points);
     const Point& p = corners[1];
@@ -148,7 +152,8 @@ class Shaft {
     add_axis((q - p).cross(r - p), corners);
   }
 
-  Shaft(const Point& p0, const Point& p1, const Box& box) : origin_(p0) {
+  Shaft(const Point& p0, const Point& p1, const Box& box, const Pad& pad = {})
+      : origin_(p0), pad_(pad) {
     std::array<Point, 10> points{p0, p1};
     for (int c = 0; c < 8; ++c) {
       for (int i = 0; i < 3; ++i) {
@@ -207,6 +212,11 @@ class Shaft {
         max_[i] = std::max(max_[i], points[k][i]);
       }
     }
+    for (int i = 0; i < 3; ++i) {
+      // Two units cover the rounding of what is off by one or more.
+      min_[i] -= 2 * pad_[i];
+      max_[i] += 2 * pad_[i];
+    }
     return relative;
   }
 
@@ -226,7 +236,8 @@ class Shaft {
       high = std::max(high, at);
       largest = std::max(largest, size);
     }
-    const double error = 16 * kUnitRoundoff * largest;
+    double error = 16 * kUnitRoundoff * largest;
+    for (int i = 0; i < 3; ++i) error += 2 * std::abs(m[i]) * pad_[i];
     axes_[count_++] = {m, low - error, high + error};
   }
 
@@ -239,6 +250,7 @@ class Shaft {
   }
 
   Point origin_;
+  Pad pad_{};
   std::array<double, 3> min_, max_;
   std::array<Axis, 7> axes_{};
   int count_ = 0;

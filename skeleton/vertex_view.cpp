@@ -235,7 +235,7 @@ bool VertexViewer::hidden(const Box& box) {
       return true;  // in polygon mode: ends there
     }
   }
-  return occluders_.hide(box);
+  return occluders_.hider(box) >= 0;
 }
 
 VertexView VertexViewer::view(int star) {
@@ -323,7 +323,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
           return g_.face_plane(f)(e0) == Sign::Zero && g_.face_plane(f)(e1) == Sign::Zero;
         });
     if (!in_plane && !g_.polygon()) return;
-  } else if (occluders_.hide(e0, e1)) {
+  } else if (occluders_.hider(e0, e1) >= 0) {
     return;
   }
   const Edge& edge = scene_.edges()[r.edge];
