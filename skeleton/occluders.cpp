@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "skeleton/occluder_shadow_internal.h"
 #include "skeleton/occluders_internal.h"
@@ -11,6 +12,38 @@ constexpr std::size_t kRecent = 16;  // speed only
 std::array<double, 3> relative(const std::array<double, 3>& p, const Point& origin) {
   return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
 }
+
+// A segment held against boxes, in doubles as they come: speed only.
+class Way {
+ public:
+  Way(const Point& from, const Point& to)
+      : middle_(0.5 * (from + to)),
+        half_((0.5 * (to - from)).cwiseAbs()),
+        direction_(to - from) {}
+
+  [[nodiscard]] bool meets(const Box& box) const {
+    std::array<double, 3> c, h;
+    for (int i = 0; i < 3; ++i) {
+      c[i] = 0.5 * (box.min[i] + box.max[i]) - middle_[i];
+      // Wider by a rounding or two: much touches on a ground.
+      h[i] = 0.5 * (box.max[i] - box.min[i]) +
+             8 * kUnitRoundoff * (std::abs(box.max[i]) + std::abs(middle_[i]));
+      if (std::abs(c[i]) > h[i] + half_[i]) return false;
+    }
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const int k = (i + 2) % 3;
+      if (std::abs(direction_[j] * c[k] - direction_[k] * c[j]) >
+          2 * (half_[j] * h[k] + half_[k] * h[j])) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  Point middle_, half_, direction_;
+};
 
 }  // namespace
 
@@ -27,6 +60,10 @@ void Occluders::begin(std::span<const Point> viewpoints,
   viewpoints_.assign(viewpoints.begin(), viewpoints.end());
   own_objects_.assign(own_objects.begin(), own_objects.end());
   own_facets_.assign(own_facets.begin(), own_facets.end());
+  middle_ = Point::Zero();
+  for (const Point& p : viewpoints) {
+    middle_ += p / static_cast<double>(viewpoints.size());
+  }
   for (const std::int64_t key : shadow_keys_) shadow_index_[key] = -2;
   shadow_keys_.clear();
   shadows_.clear();
@@ -103,8 +140,11 @@ int Occluders::hider(const Point& q0, const Point& q1) const {
 
 int Occluders::hider(std::span<const std::int32_t> faces, const Point& q0,
                      const Point& q1) {
+  const Way way(middle_, 0.5 * (q0 + q1));
   int last = -1;
   for (const std::int32_t face : faces) {
+    // What hides all segments is met by this one, by a face on the near side first.
+    if (!way.meets(g_.face_box(face))) continue;
     const int shadow = shadow_of(face);
     if (shadow < 0 || shadow == last) continue;
     last = shadow;

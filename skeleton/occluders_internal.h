@@ -48,6 +48,7 @@ class Occluders {
 
   const Generators& g_;
   std::vector<Point> viewpoints_;
+  Point middle_;  // of the viewpoints
   std::vector<std::int32_t> own_objects_, own_facets_;
   std::vector<Shadow> shadows_;             // from each viewpoint, occluder by occluder
   std::vector<std::int32_t> faces_;         // one of each occluder with shadows

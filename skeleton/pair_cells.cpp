@@ -117,7 +117,8 @@ int PairCells::divide(double s0, double s1, const std::function<bool(int)>& is_m
   masks_.resize(occluders_.size());
   list_.resize(faces_.size());
   for (std::size_t i = 0; i < list_.size(); ++i) list_[i] = static_cast<std::int32_t>(i);
-  return visit({s0, s1, 0, 1}, 0, 0, list_.size());
+  const int depth = -std::ilogb(s1 - s0);  // as if halved so often
+  return visit({s0, s1, 0, 1}, depth, 0, list_.size());
 }
 
 void PairCells::hide(double s0, double s1, std::int64_t occluder) {

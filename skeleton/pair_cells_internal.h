@@ -52,7 +52,7 @@ class PairCells {
   void add_face(int face, std::int64_t occluder, bool front_only, const Linear& p,
                 const Linear& q, std::span<const Side> sides);
   /// With all faces added, takes the square part by part: segments from a part of the
-  /// first edge, s0 to s1 in multiples of 1/64, to the last one.  Divides it; a face of
+  /// first edge, halved any number of times, to the last one.  Divides it; a face of
   /// the one occluder that hides all of it, or -1.  `is_middle` says whether a ridge may
   /// be a middle edge.
   [[nodiscard]] int divide(double s0, double s1,
