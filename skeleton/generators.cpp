@@ -88,7 +88,8 @@ Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
       events_(events),
       face_boxes_(boxes_of_faces(scene)),
       face_tree_(face_boxes_),
-      ridge_tree_(std::vector<Box>{}) {
+      ridge_tree_(std::vector<Box>{}),
+      blocker_tree_(std::vector<Box>{}) {
   face_planes_.reserve(scene.faces().size());
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
     face_planes_.emplace_back(face_plane_through(scene, static_cast<int>(f)));
@@ -104,6 +105,7 @@ Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
     object_starts_[p + 1] = static_cast<std::int32_t>(object_ids_.size());
   }
   find_convex_solids();
+  find_blockers();
   find_outlines();
   find_ridges();
   find_stars();
@@ -221,6 +223,33 @@ void Generators::find_aligned() {
       return;
     }
   }
+}
+
+void Generators::find_blockers() {
+  // Speed only: of solids with more faces most are far from a segment that meets the box.
+  constexpr std::size_t kFewFaces = 32;
+  const Scene& s = *scene_;
+  std::vector<Box> boxes;
+  for (std::size_t o = 0; o < s.objects().size(); ++o) {
+    const auto& faces = s.objects()[o].faces;
+    if (convex_[o] == 0 || faces.size() > kFewFaces) {
+      for (const int f : faces) {
+        blockers_.push_back(~f);
+        boxes.push_back(face_boxes_[f]);
+      }
+      continue;
+    }
+    Box box = face_boxes_[faces.front()];
+    for (const int f : faces) {
+      for (int i = 0; i < 3; ++i) {
+        box.min[i] = std::min(box.min[i], face_boxes_[f].min[i]);
+        box.max[i] = std::max(box.max[i], face_boxes_[f].max[i]);
+      }
+    }
+    blockers_.push_back(static_cast<std::int32_t>(o));
+    boxes.push_back(box);
+  }
+  blocker_tree_ = Bvh(boxes, 1);
 }
 
 void Generators::find_inside() {

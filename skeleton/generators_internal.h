@@ -134,6 +134,11 @@ class Generators {
   [[nodiscard]] bool aligned() const { return aligned_; }
 
   [[nodiscard]] const Bvh& face_tree() const { return face_tree_; }
+  /// What blocks lines as one: a convex solid of few faces, told by its object, or a face
+  /// of anything else, told by its complement (~face).
+  [[nodiscard]] std::span<const std::int32_t> blockers() const { return blockers_; }
+  /// Over blockers(); leaves hold positions there.
+  [[nodiscard]] const Bvh& blocker_tree() const { return blocker_tree_; }
   /// Over ridges(); leaves hold ridge numbers.
   [[nodiscard]] const Bvh& ridge_tree() const { return ridge_tree_; }
   [[nodiscard]] const PlaneSide& face_plane(int face) const { return face_planes_[face]; }
@@ -142,6 +147,7 @@ class Generators {
  private:
   void find_convex_solids();
   void find_outlines();
+  void find_blockers();
   void find_ridges();
   struct EdgeFaces;  // the faces at one edge
   void add_ridge(int edge, const EdgeFaces& at, std::vector<Box>& boxes);
@@ -157,7 +163,8 @@ class Generators {
   EventMode events_;
   std::vector<Box> face_boxes_;
   Bvh face_tree_;
-  Bvh ridge_tree_;
+  Bvh ridge_tree_, blocker_tree_;
+  std::vector<std::int32_t> blockers_;
   std::vector<PlaneSide> face_planes_;
   std::vector<Ridge> ridges_;
   std::vector<std::int32_t> ridge_of_edge_;

@@ -9,11 +9,12 @@ namespace sightline::internal {
 Shadow solid_shadow(const Generators& g, int object, const Point& at) {
   const Scene& scene = g.scene();
   Shadow shadow;
+  std::vector<BoundedPlane> faces;                 // last: most boxes are beside a shadow
   std::vector<std::array<std::int32_t, 3>> sides;  // smaller id, larger id, direction
   for (const int f : scene.objects()[object].faces) {
     if (g.face_plane(f)(at) != Sign::Positive) continue;
     const auto [a, b, c] = face_plane_through(scene, f);
-    shadow.planes.push_back(plane_seen_from(at, a, b, c));
+    faces.push_back(plane_seen_from(at, a, b, c));
     const auto p = scene.face_points(f);
     for (std::size_t k = 0; k < p.size(); ++k) {
       const int from = p[k];
@@ -34,6 +35,7 @@ Shadow solid_shadow(const Generators& g, int object, const Point& at) {
     // The face lies to the left of its side pq: negative for the plane (viewpoint, p, q).
     shadow.planes.push_back(plane_from(at, p, q));
   }
+  shadow.planes.insert(shadow.planes.end(), faces.begin(), faces.end());
   return shadow;
 }
 
@@ -44,20 +46,21 @@ Shadow facet_shadow(const Generators& g, int face, const Point& at) {
   const Sign here = g.face_plane(face)(at);
   if (here == Sign::Zero) return shadow;
   const bool front = here == Sign::Positive;
-  const auto [a, b, c] = face_plane_through(scene, face);
-  shadow.planes.push_back(front ? plane_seen_from(at, a, b, c)
-                                : plane_seen_from(at, a, c, b));
   const auto add = [&](int from, int to) {
     const Point& p = scene.point(front ? from : to);
     const Point& q = scene.point(front ? to : from);
     shadow.planes.push_back(plane_from(at, p, q));
   };
   for (const auto& side : outline) add(side[0], side[1]);
-  if (!outline.empty()) return shadow;
-  const auto corners = scene.face_points(face);
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    add(corners[k], corners[(k + 1) % corners.size()]);
+  if (outline.empty()) {
+    const auto corners = scene.face_points(face);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      add(corners[k], corners[(k + 1) % corners.size()]);
+    }
   }
+  const auto [a, b, c] = face_plane_through(scene, face);
+  shadow.planes.push_back(front ? plane_seen_from(at, a, b, c)
+                                : plane_seen_from(at, a, c, b));
   return shadow;
 }
 

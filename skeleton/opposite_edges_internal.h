@@ -1,33 +1,23 @@
 // Which edges of a view lie opposite each other: a line through the viewpoint may meet
-// both, one before it and one behind.  All arcs of a view are asked for all others, so
-// they are found by a tree over their directions.  In bounded doubles: what is left out
-// is proved to be.
+// both, one before it and one behind.  In bounded doubles: what is left out is proved to
+// be.
 
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
-#include "linespace/bvh_internal.h"
-#include "skeleton/shaft_internal.h"
+#include "linespace/scene.h"
 
 namespace sightline::internal {
 
-class OppositeEdges {
- public:
-  OppositeEdges(const Point& viewpoint, std::span<const std::array<Point, 2>> edges);
-
-  /// Replaces `found` by the edges of higher number that may lie opposite edge i,
-  /// ascending.
-  void above(std::size_t i, std::vector<std::uint32_t>& found) const;
-
- private:
-  Point at_;
-  std::span<const std::array<Point, 2>> edges_;
-  std::vector<Box> boxes_;  // of their directions
-  Bvh tree_;
-};
+/// All pairs (i, j), i < j, ascending, of edges that may lie opposite each other.  A tree
+/// over their directions is held against its mirror image: time follows what comes near
+/// each other.
+[[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> opposite_edges(
+    const Point& viewpoint, std::span<const std::array<Point, 2>> edges);
 
 }  // namespace sightline::internal

@@ -168,7 +168,8 @@ VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
       feature_size_(feature_size),
       facet_stamp_(scene_.facets().size(), 0),
       occluders_(generators),
-      probe_(generators) {}
+      probe_(generators),
+      towards_(scene_.objects().size()) {}
 
 struct VertexViewer::Pair {
   int ridge;
@@ -177,9 +178,12 @@ struct VertexViewer::Pair {
   const Point& e0;
   const Point& e1;
   PlaneSide plane;  // of the viewpoint and the edge
+  Shaft triangle;
   CutUnion closed;  // where the edge is hidden or the viewpoint does not support
   std::vector<Cut> cuts{};
-  std::vector<std::int32_t> faces{};  // that meet the triangle: all of them
+  std::vector<std::int32_t> blockers{};  // whose boxes may meet the triangle
+  std::vector<std::int32_t> faces{};     // the same: once they are listed
+  bool listed = false;
   std::vector<std::int32_t> edge_facets{};
   bool mild = false;        // some sign is zero: ends need their contacts listed
   bool degenerate = false;  // stretches need the general contact test
@@ -207,6 +211,7 @@ void VertexViewer::prepare(int star) {
   std::vector<std::int32_t> facets;
   for (const int f : star_->faces) facets.push_back(scene_.faces()[f].facet);
   for (const int f : facets) facet_stamp_[f] = stamp_;
+  towards_faces_.clear();
   const auto objects = g_.objects_at(point_);
   own_objects_.assign(objects.begin(), objects.end());
   occluders_.begin(std::span(&at_, 1), own_objects_, facets);
@@ -333,8 +338,14 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   if (own_solid) return;
   if (collinear(at_, e0, e1)) return;  // along the edge: no family of lines
 
-  Pair pair{
-      ridge, &r, &edge, e0, e1, PlaneSide({at_, e0, e1}), CutUnion(scene_, {e0, e1})};
+  Pair pair{ridge,
+            &r,
+            &edge,
+            e0,
+            e1,
+            PlaneSide({at_, e0, e1}),
+            Shaft(at_, e0, e1),
+            CutUnion(scene_, {e0, e1})};
   for (const Edge::Side& side : edge.sides) {
     pair.edge_facets.push_back(scene_.faces()[side.face].facet);
   }
@@ -347,35 +358,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   if (star_->convex) add_unsupported_convex(pair);
   if (pair.closed.covers_all()) return;
 
-  const Shaft shaft(at_, e0, e1);
-  const Bvh& tree = g_.face_tree();
-  const Point toward = 0.5 * (e0 + e1) - at_;
-  std::uint32_t stack[128];
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Bvh::Node& node = tree.node(stack[--top]);
-    if (!shaft.may_meet(node.box)) continue;
-    if (node.count == 0) {
-      const auto depth = [&](const Box& box) {
-        double d = 0;
-        for (int i = 0; i < 3; ++i) d += toward[i] * (box.min[i] + box.max[i]);
-        return d;
-      };
-      const bool left_first =
-          depth(tree.node(node.first).box) <= depth(tree.node(node.first + 1).box);
-      stack[top++] = node.first + (left_first ? 1 : 0);
-      stack[top++] = node.first + (left_first ? 0 : 1);
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      const int face = static_cast<int>(tree.items()[node.first + i]);
-      add_blocker(pair, face);
-      if (!pair.closed.covers_all()) continue;
-      occluders_.remember(face);
-      return;
-    }
-  }
+  if (add_blockers(pair)) return;
   auto open = pair.closed.complement();
   if (open.empty()) return;
   if (!star_->convex && !pair.degenerate) {
@@ -383,14 +366,17 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     open = pair.closed.complement();
     if (open.empty()) return;
   }
+  if (pair.mild || pair.degenerate) list_faces(pair);
   pair.degenerate = pair.degenerate || (pair.mild && touching_across(pair));
   if (pair.degenerate) {
+    list_faces(pair);
     add_degenerate_pair(g_, *star_, r, pair.plane, pair.closed, pair.ending, pair.faces,
                         out);
     return;
   }
   if (!pair.ending.empty()) split_at_ends(pair, open);
   const bool mild = pair.mild || !ends_are_simple(pair, open);
+  if (mild) list_faces(pair);
   const bool self = own_objects_ == r.objects && own_objects_.size() == 1;
   for (std::size_t k = 0; k < open.size(); ++k) {
     const CutInterval& i = open[k];
@@ -446,10 +432,91 @@ void VertexViewer::split_at_ends(Pair& pair, std::vector<CutInterval>& open) con
   open = std::move(pieces);
 }
 
+// What lines from outside meet of a solid first are faces towards the viewpoint.  If it
+// is in the plane of one it may be on the solid: all are told.
+std::span<const std::int32_t> VertexViewer::faces_towards(int solid) {
+  Towards& t = towards_[solid];
+  if (t.stamp != stamp_) {
+    t = {stamp_, static_cast<std::uint32_t>(towards_faces_.size()), 0};
+    const auto& faces = scene_.objects()[solid].faces;
+    bool in_plane = false;
+    for (const int face : faces) {
+      const Sign side = g_.face_plane(face)(at_);
+      in_plane |= side == Sign::Zero;
+      if (side == Sign::Positive) towards_faces_.push_back(face);
+    }
+    if (in_plane) {
+      towards_faces_.resize(t.first);
+      towards_faces_.insert(towards_faces_.end(), faces.begin(), faces.end());
+    }
+    t.count = static_cast<std::uint32_t>(towards_faces_.size()) - t.first;
+  }
+  return std::span(towards_faces_).subspan(t.first, t.count);
+}
+
+// All that may hide some of the edge, from front to back; true once all of it is hidden.
+bool VertexViewer::add_blockers(Pair& pair) {
+  const Bvh& tree = g_.blocker_tree();
+  const Point toward = 0.5 * (pair.e0 + pair.e1) - at_;
+  const auto depth = [&](const Box& box) {
+    double d = 0;
+    for (int i = 0; i < 3; ++i) d += toward[i] * (box.min[i] + box.max[i]);
+    return d;
+  };
+  const auto hides_all = [&](int face) {
+    add_blocker(pair, face);
+    if (!pair.closed.covers_all()) return false;
+    occluders_.remember(face);
+    return true;
+  };
+  std::uint32_t stack[128];
+  int top = 0;
+  stack[top++] = 0;
+  while (top > 0) {
+    const Bvh::Node& node = tree.node(stack[--top]);
+    if (!pair.triangle.may_meet(node.box)) continue;
+    if (node.count == 0) {
+      const bool left_first =
+          depth(tree.node(node.first).box) <= depth(tree.node(node.first + 1).box);
+      stack[top++] = node.first + (left_first ? 1 : 0);
+      stack[top++] = node.first + (left_first ? 0 : 1);
+      continue;
+    }
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      const std::int32_t blocker = g_.blockers()[tree.items()[node.first + i]];
+      pair.blockers.push_back(blocker);
+      if (blocker < 0) {
+        if (hides_all(~blocker)) return true;
+        continue;
+      }
+      // A line that supports a convex solid does not meet it elsewhere.
+      if (blocker == pair.edge->object || contains(own_objects_, blocker)) continue;
+      for (const std::int32_t face : faces_towards(blocker)) {
+        if (pair.triangle.may_meet(g_.face_box(face)) && hides_all(face)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+void VertexViewer::list_faces(Pair& pair) const {
+  if (pair.listed) return;
+  pair.listed = true;
+  const auto add = [&](int face) {
+    if (pair.triangle.may_meet(g_.face_box(face))) pair.faces.push_back(face);
+  };
+  for (const std::int32_t blocker : pair.blockers) {
+    if (blocker < 0) {
+      add(~blocker);
+    } else {
+      for (const int face : scene_.objects()[blocker].faces) add(face);
+    }
+  }
+}
+
 // The face's trace in the plane of viewpoint and edge is a segment; what it hides is the
 // part of the edge within its two ends' directions and behind the face's plane.
 void VertexViewer::add_blocker(Pair& pair, int face) {
-  pair.faces.push_back(face);
   const Face& f = scene_.faces()[face];
   if (facet_stamp_[f.facet] == stamp_) return;
   if (std::find(pair.edge_facets.begin(), pair.edge_facets.end(), f.facet) !=
@@ -911,46 +978,40 @@ void VertexViewer::add_line_ups(VertexView& out) {
     const auto& p = scene_.edges()[a.edge].points;
     edges.push_back({scene_.point(p[0]), scene_.point(p[1])});
   }
-  const OppositeEdges opposite(at_, edges);
-  std::vector<std::uint32_t> others;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
+  for (const auto& [i, j] : opposite_edges(at_, edges)) {
     const SkeletonArc a = out.arcs[i];
-    if (a.ends[0]) continue;  // a contact in between grazes
+    const SkeletonArc b = out.arcs[j];
+    // With an end contact at the viewpoint, no line goes on.
+    if (b.edge == a.edge || a.ends[0] || b.ends[0]) continue;
     const Edge& e = scene_.edges()[a.edge];
+    const Edge& f = scene_.edges()[b.edge];
     const auto& [e0, e1] = edges[i];
+    const auto& [f0, f1] = edges[j];
     const PlaneSide plane_e({at_, e0, e1});
-    opposite.above(i, others);
-    for (const std::uint32_t j : others) {
-      const SkeletonArc b = out.arcs[j];
-      if (b.edge == a.edge || b.ends[0]) continue;
-      const Edge& f = scene_.edges()[b.edge];
-      const auto& [f0, f1] = edges[j];
-      const Sign s0 = plane_e(f0);
-      const Sign s1 = plane_e(f1);
-      if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) continue;
-      const PlaneSide plane_f({at_, f0, f1});
-      const Sign t0 = plane_f(e0);
-      const Sign t1 = plane_f(e1);
-      if (t0 == t1 || t0 == Sign::Zero || t1 == Sign::Zero) continue;
-      // The common line of the two planes meets both edges.  The crossing of f, from
-      // front to back of e's plane, is to the right of the ray to e0 iff it lies behind.
-      if ((s0 == Sign::Positive ? t0 : -t0) != Sign::Positive) continue;
-      const Cut on_e = line_up_cut({e0, e1}, plane_f, f.points);
-      const Cut on_f = line_up_cut({f0, f1}, plane_e, e.points);
-      if (!inside_arc({e0, e1}, out.intervals[i], on_e)) continue;
-      if (!inside_arc({f0, f1}, out.intervals[j], on_f)) continue;
-      const Generator generators[] = {{GeneratorKind::Edge, a.edge},
-                                      {GeneratorKind::Vertex, point_},
-                                      {GeneratorKind::Edge, b.edge}};
-      const bool self = a.self || b.self || e.object == f.object;
-      const std::uint32_t node = out.add_node(
-          NodeKind::EVE, self, false, generators,
-          {e0 + on_e.parameter() * (e1 - e0), f0 + on_f.parameter() * (f1 - f0)},
-          {a.ends[1], b.ends[1]});
-      out.special[node] = out.special_arcs[i] != 0 || out.special_arcs[j] != 0;
-      out.line_ups.push_back({node, static_cast<std::uint32_t>(i), on_e,
-                              static_cast<std::uint32_t>(j), on_f});
-    }
+    const Sign s0 = plane_e(f0);
+    const Sign s1 = plane_e(f1);
+    if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) continue;
+    const PlaneSide plane_f({at_, f0, f1});
+    const Sign t0 = plane_f(e0);
+    const Sign t1 = plane_f(e1);
+    if (t0 == t1 || t0 == Sign::Zero || t1 == Sign::Zero) continue;
+    // The common line of the two planes meets both edges.  The crossing of f, from
+    // front to back of e's plane, is to the right of the ray to e0 iff it lies behind.
+    if ((s0 == Sign::Positive ? t0 : -t0) != Sign::Positive) continue;
+    const Cut on_e = line_up_cut({e0, e1}, plane_f, f.points);
+    const Cut on_f = line_up_cut({f0, f1}, plane_e, e.points);
+    if (!inside_arc({e0, e1}, out.intervals[i], on_e)) continue;
+    if (!inside_arc({f0, f1}, out.intervals[j], on_f)) continue;
+    const Generator generators[] = {{GeneratorKind::Edge, a.edge},
+                                    {GeneratorKind::Vertex, point_},
+                                    {GeneratorKind::Edge, b.edge}};
+    const bool self = a.self || b.self || e.object == f.object;
+    const std::uint32_t node = out.add_node(
+        NodeKind::EVE, self, false, generators,
+        {e0 + on_e.parameter() * (e1 - e0), f0 + on_f.parameter() * (f1 - f0)},
+        {a.ends[1], b.ends[1]});
+    out.special[node] = out.special_arcs[i] != 0 || out.special_arcs[j] != 0;
+    out.line_ups.push_back({node, i, on_e, j, on_f});
   }
 }
 
