@@ -52,13 +52,6 @@ Carriers::Carriers(const Generators& g) {
       if (r < 0 || g.ridges()[r].touched) touched_facets[scene.faces()[f].facet] = 1;
     }
   }
-  for (const Object& object : scene.objects()) {
-    std::vector<Point> points;
-    for (const int f : object.faces) {
-      for (const int p : scene.face_points(f)) points.push_back(scene.point(p));
-    }
-    object_boxes.push_back(points.empty() ? Box{} : box_of(points));
-  }
 }
 
 }  // namespace sightline::internal

@@ -26,7 +26,6 @@ struct Carriers {
   };
   std::vector<std::int32_t> starts;
   std::vector<Side> sides;
-  std::vector<Box> object_boxes;
   /// Facets of which some side is no ridge that stands free: lines in their planes need
   /// the general contact test.
   std::vector<std::uint8_t> touched_facets;

@@ -238,7 +238,7 @@ bool EdgePairs::is_of(const Ridge& ridge, int face) const {
 bool EdgePairs::enters_only(int face) const {
   const int object = scene_.faces()[face].object;
   return scene_.objects()[object].closed &&
-         !boxes_meet(carriers_.object_boxes[object], view_.box());
+         !boxes_meet(g_.object_box(object), view_.box());
 }
 
 // The face's plane along the first and the last edge.
@@ -369,7 +369,8 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
   const int own[] = {carriers_.of_ridge[outer.first], curve.middle(),
                      carriers_.of_ridge[outer.last]};
   ++node_stamp_;
-  for (const int face : faces_) {
+  const std::vector<int> faces = view_.all_faces();
+  for (const int face : faces) {
     const PlaneSide& plane = g_.face_plane(face);
     const std::array<std::int32_t, 3> points = plane_points(scene_, face);
     const int facet = scene_.faces()[face].facet;
@@ -415,8 +416,6 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
   stops.insert(stops.begin(), open.from);
   stops.push_back(open.to);
 
-  std::vector<int> faces(faces_.begin(), faces_.end());
-  std::sort(faces.begin(), faces.end());
   // Which outer contacts are end contacts; nullopt when the line is not free.
   using State = std::optional<std::array<bool, 2>>;
   const Ridge& first = g_.ridges()[outer.first];

@@ -10,9 +10,15 @@ namespace {
 // Speed only: longer lists are not kept: the tree of faces is asked for each edge of the
 // group.
 constexpr std::size_t kLongestList = 512;
-// A long edge is looked at by pieces when so many faces are between it and the group:
+// A long edge is looked at by pieces when so many blockers are between it and the group:
 // fewer are sorted out pair by pair.
-constexpr std::size_t kManyFaces = 48;
+constexpr std::size_t kManyBlockers = 24;
+
+template <class T>
+void sort_unique(std::vector<T>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
 
 }  // namespace
 
@@ -21,7 +27,8 @@ std::array<bool, 2> touched_on(const Ridge& r) {
           r.contact(Sign::Positive, Sign::Positive) != EdgeContact::None};
 }
 
-EdgeView::EdgeView(const Generators& generators) : g_(generators), cutter_(generators) {
+EdgeView::EdgeView(const Generators& generators)
+    : g_(generators), cutter_(generators), facing_(generators) {
   views_.emplace_back(g_);
 }
 
@@ -30,6 +37,7 @@ void EdgeView::begin(int ridge) {
   ridge_ = &g_.ridges()[ridge];
   ends_ = {scene.point(ridge_->points[0]), scene.point(ridge_->points[1])};
   box_ = box_of(ends_);
+  facing_.begin(ends_);
   for (int k = 0; k < 2; ++k) {
     wedge_[k] =
         plane_seen_from(ends_[0], scene.point(ridge_->points[1 - k]),
@@ -84,38 +92,56 @@ bool EdgeView::never_touched_from(const Box& box) const {
           wedge_[1].positive_on(c, b.half));
 }
 
-void EdgeView::list_faces(PieceView& view) {
+void EdgeView::list_blockers(PieceView& view) {
   view.listed = true;
   view.list.clear();
   const Shaft hull(view.piece.point(0), view.piece.point(1), group_, view.piece.pad());
-  g_.face_tree().traverse(
+  g_.blocker_tree().traverse(
       [&](const Box& box) {
         return view.list.size() <= kLongestList && hull.may_meet(box);
       },
       [&](std::uint32_t item) {
-        const int face = static_cast<int>(item);
-        const Box& box = g_.face_box(face);
-        if (hull.may_meet(box)) view.list.push_back({box, face});
+        const std::int32_t blocker = g_.blockers()[item];
+        const Box& box = g_.blocker_box(blocker);
+        if (hull.may_meet(box)) view.list.push_back({box, blocker});
       });
   view.too_many = view.list.size() > kLongestList;
 }
 
-// Replaces between_ by the faces whose boxes may meet the hull of the piece and an edge
-// of the group.
-void EdgeView::faces_between(PieceView& view, const Shaft& hull) {
-  if (!view.listed) list_faces(view);
+// A blocker whose box the hull may meet.
+void EdgeView::add_between(std::int32_t blocker, const Shaft& hull) {
+  blockers_.push_back(blocker);
+  if (blocker < 0) {
+    between_.push_back(~blocker);
+    return;
+  }
+  // Lines that touch a convex solid's edge do not meet it elsewhere.
+  if (std::find(ridge_->objects.begin(), ridge_->objects.end(), blocker) !=
+      ridge_->objects.end()) {
+    return;
+  }
+  for (const std::int32_t face : facing_.of(blocker)) {
+    if (hull.may_meet(g_.face_box(face))) between_.push_back(face);
+  }
+}
+
+// Replaces between_ by the faces that the hull of the piece and an edge of the group may
+// meet first of anything.
+void EdgeView::find_between(PieceView& view, const Shaft& hull) {
+  if (!view.listed) list_blockers(view);
   between_.clear();
   if (view.too_many) {
-    g_.face_tree().traverse([&](const Box& box) { return hull.may_meet(box); },
-                            [&](std::uint32_t item) {
-                              const int face = static_cast<int>(item);
-                              if (hull.may_meet(g_.face_box(face)))
-                                between_.push_back(face);
-                            });
+    g_.blocker_tree().traverse([&](const Box& box) { return hull.may_meet(box); },
+                               [&](std::uint32_t item) {
+                                 const std::int32_t blocker = g_.blockers()[item];
+                                 if (hull.may_meet(g_.blocker_box(blocker))) {
+                                   add_between(blocker, hull);
+                                 }
+                               });
     return;
   }
   for (const Listed& l : view.list) {
-    if (hull.may_meet(l.box)) between_.push_back(l.face);
+    if (hull.may_meet(l.box)) add_between(l.blocker, hull);
   }
 }
 
@@ -123,11 +149,13 @@ bool EdgeView::look(Pieces open, const Point& q0, const Point& q1,
                     std::vector<Part>& parts, std::vector<std::int32_t>& faces) {
   if (!decided_) {
     decided_ = true;
-    list_faces(whole());
-    cut_ = pieces_ != 0 && whole().list.size() > kManyFaces;
+    list_blockers(whole());
+    cut_ = pieces_ != 0 && whole().list.size() > kManyBlockers;
   }
   parts.clear();
   faces.clear();
+  blockers_.clear();
+  hider_faces_.clear();
   bool some_open = false;
   for (int k = 0; k < (cut_ ? piece_count_ : 1); ++k) {
     PieceView& view = part_view(k);
@@ -137,8 +165,11 @@ bool EdgeView::look(Pieces open, const Point& q0, const Point& q1,
       hidden_by = (open >> k & 1u) == 0 ? view.hidden_by : view.occluders.hider(q0, q1);
     }
     if (hidden_by < 0) {
-      faces_between(view, Shaft(piece.point(0), piece.point(1), q0, q1, piece.pad()));
+      const std::size_t kept = blockers_.size();
+      hull_.emplace(piece.point(0), piece.point(1), q0, q1, piece.pad());
+      find_between(view, *hull_);
       hidden_by = view.occluders.hider(between_, q0, q1);
+      if (hidden_by >= 0) blockers_.resize(kept);
     }
     if (hidden_by < 0) {
       some_open = true;
@@ -153,11 +184,27 @@ bool EdgeView::look(Pieces open, const Point& q0, const Point& q1,
   for (const Part& part : parts) {
     if (part.hidden_by < 0 || part.hidden_by == last) continue;
     last = part.hidden_by;
-    add_occluder_faces(g_, last, faces);
+    add_occluder_faces(g_, last, hider_faces_);
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  faces.insert(faces.end(), hider_faces_.begin(), hider_faces_.end());
+  sort_unique(faces);
+  hull_.emplace(ends_[0], ends_[1], q0, q1);
   return true;
+}
+
+std::vector<int> EdgeView::all_faces() const {
+  std::vector<int> faces(hider_faces_.begin(), hider_faces_.end());
+  for (const std::int32_t blocker : blockers_) {
+    if (blocker < 0) {
+      faces.push_back(~blocker);
+      continue;
+    }
+    for (const int face : g_.scene().objects()[blocker].faces) {
+      if (hull_->may_meet(g_.face_box(face))) faces.push_back(face);
+    }
+  }
+  sort_unique(faces);
+  return faces;
 }
 
 }  // namespace sightline::internal

@@ -7,9 +7,11 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "skeleton/edge_pieces_internal.h"
+#include "skeleton/facing_faces_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/occluders_internal.h"
 #include "skeleton/shaft_internal.h"
@@ -55,19 +57,22 @@ class EdgeView {
     double from, to;
     int hidden_by;  ///< a face of an occluder that hides the other edge from it, or -1
   };
-  /// Tells the edge's parts, in order: all of it where few faces are between it and the
-  /// group, else its pieces, of which `open` are not known to be hidden; for those that
-  /// are not, appends the faces between, by boxes.  False when all are hidden.
+  /// Tells the edge's parts, in order: all of it where few blockers are between it and
+  /// the group, else its pieces, of which `open` are not known to be hidden; and the
+  /// faces, by boxes, that lines from the others may enter something by on their way, of
+  /// an occluder of a hidden part all.  False when all are hidden.
   [[nodiscard]] bool look(Pieces open, const Point& q0, const Point& q1,
                           std::vector<Part>& parts, std::vector<std::int32_t>& faces);
+  /// All faces, by boxes, of what was between the edge and the other one, ascending.
+  [[nodiscard]] std::vector<int> all_faces() const;
   /// The occluder of this face hid an edge of the group from a part.
   void remember(std::size_t part, int face) { part_view(part).occluders.remember(face); }
 
  private:
-  // Those faces that may be between a piece and the group, listed when asked for.
+  // Those blockers that may be between a piece and the group, listed when asked for.
   struct Listed {
     Box box;
-    std::int32_t face;
+    std::int32_t blocker;
   };
   struct PieceView {
     explicit PieceView(const Generators& g) : occluders(g) {}
@@ -83,8 +88,9 @@ class EdgeView {
     return views_[cut_ ? part + 1 : 0];
   }
   void begin_piece(std::size_t view, double from, double to);
-  void list_faces(PieceView& view);
-  void faces_between(PieceView& view, const Shaft& hull);
+  void list_blockers(PieceView& view);
+  void find_between(PieceView& view, const Shaft& hull);
+  void add_between(std::int32_t blocker, const Shaft& hull);
 
   const Generators& g_;
   EdgeCutter cutter_;
@@ -100,7 +106,11 @@ class EdgeView {
 
   Box group_;
   bool cut_ = false, decided_ = false;  // the group is looked at by pieces
+  FacingFaces facing_;
+  // Of the part at hand; of all parts of the edge.
   std::vector<std::int32_t> between_;
+  std::vector<std::int32_t> blockers_, hider_faces_;
+  std::optional<Shaft> hull_;
 };
 
 }  // namespace sightline::internal

@@ -105,6 +105,7 @@ Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
     object_starts_[p + 1] = static_cast<std::int32_t>(object_ids_.size());
   }
   find_convex_solids();
+  find_object_boxes();
   find_blockers();
   find_outlines();
   find_ridges();
@@ -225,6 +226,19 @@ void Generators::find_aligned() {
   }
 }
 
+void Generators::find_object_boxes() {
+  for (const Object& object : scene_->objects()) {
+    Box box = object.faces.empty() ? Box{} : face_boxes_[object.faces.front()];
+    for (const int f : object.faces) {
+      for (int i = 0; i < 3; ++i) {
+        box.min[i] = std::min(box.min[i], face_boxes_[f].min[i]);
+        box.max[i] = std::max(box.max[i], face_boxes_[f].max[i]);
+      }
+    }
+    object_boxes_.push_back(box);
+  }
+}
+
 void Generators::find_blockers() {
   // Speed only: of solids with more faces most are far from a segment that meets the box.
   constexpr std::size_t kFewFaces = 32;
@@ -239,15 +253,8 @@ void Generators::find_blockers() {
       }
       continue;
     }
-    Box box = face_boxes_[faces.front()];
-    for (const int f : faces) {
-      for (int i = 0; i < 3; ++i) {
-        box.min[i] = std::min(box.min[i], face_boxes_[f].min[i]);
-        box.max[i] = std::max(box.max[i], face_boxes_[f].max[i]);
-      }
-    }
     blockers_.push_back(static_cast<std::int32_t>(o));
-    boxes.push_back(box);
+    boxes.push_back(object_boxes_[o]);
   }
   blocker_tree_ = Bvh(boxes, 1);
 }

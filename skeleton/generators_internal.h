@@ -137,16 +137,22 @@ class Generators {
   /// What blocks lines as one: a convex solid of few faces, told by its object, or a face
   /// of anything else, told by its complement (~face).
   [[nodiscard]] std::span<const std::int32_t> blockers() const { return blockers_; }
+  [[nodiscard]] const Box& blocker_box(std::int32_t blocker) const {
+    return blocker < 0 ? face_box(~blocker) : object_box(blocker);
+  }
   /// Over blockers(); leaves hold positions there.
   [[nodiscard]] const Bvh& blocker_tree() const { return blocker_tree_; }
   /// Over ridges(); leaves hold ridge numbers.
   [[nodiscard]] const Bvh& ridge_tree() const { return ridge_tree_; }
   [[nodiscard]] const PlaneSide& face_plane(int face) const { return face_planes_[face]; }
   [[nodiscard]] const Box& face_box(int face) const { return face_boxes_[face]; }
+  /// Around all faces of an object; a point for one without.
+  [[nodiscard]] const Box& object_box(int object) const { return object_boxes_[object]; }
 
  private:
   void find_convex_solids();
   void find_outlines();
+  void find_object_boxes();
   void find_blockers();
   void find_ridges();
   struct EdgeFaces;  // the faces at one edge
@@ -161,7 +167,7 @@ class Generators {
 
   const Scene* scene_;
   EventMode events_;
-  std::vector<Box> face_boxes_;
+  std::vector<Box> face_boxes_, object_boxes_;
   Bvh face_tree_;
   Bvh ridge_tree_, blocker_tree_;
   std::vector<std::int32_t> blockers_;

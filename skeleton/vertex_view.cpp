@@ -169,7 +169,7 @@ VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
       facet_stamp_(scene_.facets().size(), 0),
       occluders_(generators),
       probe_(generators),
-      towards_(scene_.objects().size()) {}
+      facing_(generators) {}
 
 struct VertexViewer::Pair {
   int ridge;
@@ -211,10 +211,10 @@ void VertexViewer::prepare(int star) {
   std::vector<std::int32_t> facets;
   for (const int f : star_->faces) facets.push_back(scene_.faces()[f].facet);
   for (const int f : facets) facet_stamp_[f] = stamp_;
-  towards_faces_.clear();
   const auto objects = g_.objects_at(point_);
   own_objects_.assign(objects.begin(), objects.end());
   occluders_.begin(std::span(&at_, 1), own_objects_, facets);
+  facing_.begin(std::span(&at_, 1));
   star_planes_.clear();
   if (star_->convex) {
     for (const int f : star_->faces) {
@@ -432,28 +432,6 @@ void VertexViewer::split_at_ends(Pair& pair, std::vector<CutInterval>& open) con
   open = std::move(pieces);
 }
 
-// What lines from outside meet of a solid first are faces towards the viewpoint.  If it
-// is in the plane of one it may be on the solid: all are told.
-std::span<const std::int32_t> VertexViewer::faces_towards(int solid) {
-  Towards& t = towards_[solid];
-  if (t.stamp != stamp_) {
-    t = {stamp_, static_cast<std::uint32_t>(towards_faces_.size()), 0};
-    const auto& faces = scene_.objects()[solid].faces;
-    bool in_plane = false;
-    for (const int face : faces) {
-      const Sign side = g_.face_plane(face)(at_);
-      in_plane |= side == Sign::Zero;
-      if (side == Sign::Positive) towards_faces_.push_back(face);
-    }
-    if (in_plane) {
-      towards_faces_.resize(t.first);
-      towards_faces_.insert(towards_faces_.end(), faces.begin(), faces.end());
-    }
-    t.count = static_cast<std::uint32_t>(towards_faces_.size()) - t.first;
-  }
-  return std::span(towards_faces_).subspan(t.first, t.count);
-}
-
 // All that may hide some of the edge, from front to back; true once all of it is hidden.
 bool VertexViewer::add_blockers(Pair& pair) {
   const Bvh& tree = g_.blocker_tree();
@@ -491,7 +469,7 @@ bool VertexViewer::add_blockers(Pair& pair) {
       }
       // A line that supports a convex solid does not meet it elsewhere.
       if (blocker == pair.edge->object || contains(own_objects_, blocker)) continue;
-      for (const std::int32_t face : faces_towards(blocker)) {
+      for (const std::int32_t face : facing_.of(blocker)) {
         if (pair.triangle.may_meet(g_.face_box(face)) && hides_all(face)) return true;
       }
     }

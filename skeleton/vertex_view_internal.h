@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "skeleton/edge_cuts_internal.h"
+#include "skeleton/facing_faces_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/line_probe_internal.h"
 #include "skeleton/occluders_internal.h"
@@ -82,7 +83,6 @@ class VertexViewer {
   void drop_arcs_off_source(VertexView& out);
   void view_ridge(int ridge, VertexView& out);
   bool add_blockers(Pair& pair);
-  [[nodiscard]] std::span<const std::int32_t> faces_towards(int solid);
   void add_blocker(Pair& pair, int face);
   void list_faces(Pair& pair) const;
   [[nodiscard]] bool continues_across(int face, std::span<const Sign> signs) const;
@@ -121,12 +121,7 @@ class VertexViewer {
   Occluders occluders_;
   std::vector<BoundedPlane> star_planes_;
   LineProbe probe_;
-  // Of convex solids: the faces that lines from the viewpoint can enter by.
-  struct Towards {
-    std::uint32_t stamp = 0, first = 0, count = 0;  // in towards_faces_
-  };
-  std::vector<Towards> towards_;  // by object
-  std::vector<std::int32_t> towards_faces_;
+  FacingFaces facing_;
 };
 
 }  // namespace sightline::internal
