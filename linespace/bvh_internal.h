@@ -54,6 +54,34 @@ class Bvh {
     }
   }
 
+  /// The same until visit(item) -> bool returns true, which is returned: of two nodes the
+  /// one first whose box has its middle less far along `toward`.
+  template <class Enter, class Visit>
+  bool any_towards(const Point& toward, Enter&& enter, Visit&& visit) const {
+    if (nodes_.empty()) return false;
+    const auto depth = [&](const Box& box) {
+      double d = 0;
+      for (int i = 0; i < 3; ++i) d += toward[i] * (box.min[i] + box.max[i]);
+      return d;
+    };
+    std::uint32_t stack[128];
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+      const Node& n = nodes_[stack[--top]];
+      if (!enter(n.box)) continue;
+      for (std::uint32_t i = 0; i < n.count; ++i) {
+        if (visit(items_[n.first + i])) return true;
+      }
+      if (n.count > 0) continue;
+      const bool left_first =
+          depth(nodes_[n.first].box) <= depth(nodes_[n.first + 1].box);
+      stack[top++] = n.first + (left_first ? 1 : 0);
+      stack[top++] = n.first + (left_first ? 0 : 1);
+    }
+    return false;
+  }
+
  private:
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> items_;

@@ -9,34 +9,10 @@
 namespace sightline::internal {
 namespace {
 
-// So many edges share a list of faces: speed only.
+// So many edges share lists of blockers: speed only.
 constexpr int kGroup = 32;
 
 }  // namespace
-
-std::vector<EdgePairs::Group> EdgePairs::ridge_groups(const Bvh& tree) {
-  std::vector<Group> groups(tree.nodes().size());
-  std::vector<int> sizes(groups.size(), 0);
-  // Children have higher numbers than their parent.
-  for (std::size_t i = groups.size(); i-- > 0;) {
-    const Bvh::Node& node = tree.node(static_cast<std::uint32_t>(i));
-    groups[i].begins = i == 0;
-    if (node.count == 0) {
-      sizes[i] = sizes[node.first] + sizes[node.first + 1];
-      for (const std::uint32_t child : {node.first, node.first + 1}) {
-        groups[child].begins = sizes[i] > kGroup;
-        groups[i].highest = std::max(groups[i].highest, groups[child].highest);
-      }
-      continue;
-    }
-    sizes[i] = static_cast<int>(node.count);
-    for (std::uint32_t k = 0; k < node.count; ++k) {
-      groups[i].highest = std::max(
-          groups[i].highest, static_cast<std::int32_t>(tree.items()[node.first + k]));
-    }
-  }
-  return groups;
-}
 
 EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
                      const EeePart& part)
@@ -45,7 +21,7 @@ EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
       carriers_(carriers),
       selection_(part),
       view_(generators),
-      groups_(ridge_groups(generators.ridge_tree())),
+      groups_(ridge_groups(generators.ridge_tree(), kGroup)),
       face_stamp_(scene_.faces().size(), 0),
       face_planes_(scene_.faces().size()),
       middle_stamp_(generators.ridges().size(), 0),

@@ -16,6 +16,7 @@
 #include "skeleton/line_probe_internal.h"
 #include "skeleton/pair_cells_internal.h"
 #include "skeleton/part_internal.h"
+#include "skeleton/ridge_groups_internal.h"
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
 
@@ -116,13 +117,8 @@ class EdgePairs {
   const Carriers& carriers_;
   const EeePart& selection_;
 
-  EdgeView view_;               // from the first edge at hand
-  struct Group {                // by node of the ridge tree
-    std::int32_t highest = -1;  // of the ridges below
-    bool begins = false;        // those below share a list of faces
-  };
-  [[nodiscard]] static std::vector<Group> ridge_groups(const Bvh& tree);
-  std::vector<Group> groups_;
+  EdgeView view_;  // from the first edge at hand
+  std::vector<RidgeGroup> groups_;
   EdgeView::Pieces open_ = 0;  // of the first edge, for the group at hand
 
   // The pair at hand.

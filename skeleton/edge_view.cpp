@@ -7,11 +7,8 @@
 namespace sightline::internal {
 namespace {
 
-// Speed only: longer lists are not kept: the tree of faces is asked for each edge of the
-// group.
-constexpr std::size_t kLongestList = 512;
-// A long edge is looked at by pieces when so many blockers are between it and the group:
-// fewer are sorted out pair by pair.
+// Speed only: a long edge is looked at by pieces when so many blockers are between it and
+// the group: fewer are sorted out pair by pair.
 constexpr std::size_t kManyBlockers = 24;
 
 template <class T>
@@ -66,7 +63,7 @@ void EdgeView::look_at(const Box& group) {
   group_ = group;
   decided_ = cut_ = false;
   for (int k = 0; k <= piece_count_ && k < static_cast<int>(views_.size()); ++k) {
-    views_[k].listed = false;
+    views_[k].between.forget();
   }
 }
 
@@ -92,20 +89,13 @@ bool EdgeView::never_touched_from(const Box& box) const {
           wedge_[1].positive_on(c, b.half));
 }
 
-void EdgeView::list_blockers(PieceView& view) {
-  view.listed = true;
-  view.list.clear();
-  const Shaft hull(view.piece.point(0), view.piece.point(1), group_, view.piece.pad());
-  g_.blocker_tree().traverse(
-      [&](const Box& box) {
-        return view.list.size() <= kLongestList && hull.may_meet(box);
-      },
-      [&](std::uint32_t item) {
-        const std::int32_t blocker = g_.blockers()[item];
-        const Box& box = g_.blocker_box(blocker);
-        if (hull.may_meet(box)) view.list.push_back({box, blocker});
-      });
-  view.too_many = view.list.size() > kLongestList;
+void EdgeView::list_blockers(PieceView& view) const {
+  const EdgePiece& piece = view.piece;
+  const Point middle{0.5 * (group_.min[0] + group_.max[0]),
+                     0.5 * (group_.min[1] + group_.max[1]),
+                     0.5 * (group_.min[2] + group_.max[2])};
+  view.between.list(Shaft(piece.point(0), piece.point(1), group_, piece.pad()),
+                    middle - piece.point(0));
 }
 
 // A blocker whose box the hull may meet.
@@ -128,21 +118,12 @@ void EdgeView::add_between(std::int32_t blocker, const Shaft& hull) {
 // Replaces between_ by the faces that the hull of the piece and an edge of the group may
 // meet first of anything.
 void EdgeView::find_between(PieceView& view, const Shaft& hull) {
-  if (!view.listed) list_blockers(view);
+  if (!view.between.listed()) list_blockers(view);
   between_.clear();
-  if (view.too_many) {
-    g_.blocker_tree().traverse([&](const Box& box) { return hull.may_meet(box); },
-                               [&](std::uint32_t item) {
-                                 const std::int32_t blocker = g_.blockers()[item];
-                                 if (hull.may_meet(g_.blocker_box(blocker))) {
-                                   add_between(blocker, hull);
-                                 }
-                               });
-    return;
-  }
-  for (const Listed& l : view.list) {
-    if (hull.may_meet(l.box)) add_between(l.blocker, hull);
-  }
+  view.between.any_of(hull, [&](std::int32_t blocker) {
+    add_between(blocker, hull);
+    return false;
+  });
 }
 
 bool EdgeView::look(Pieces open, const Point& q0, const Point& q1,
@@ -150,7 +131,7 @@ bool EdgeView::look(Pieces open, const Point& q0, const Point& q1,
   if (!decided_) {
     decided_ = true;
     list_blockers(whole());
-    cut_ = pieces_ != 0 && whole().list.size() > kManyBlockers;
+    cut_ = pieces_ != 0 && whole().between.size() > kManyBlockers;
   }
   parts.clear();
   faces.clear();

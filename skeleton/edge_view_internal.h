@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "skeleton/blocker_list_internal.h"
 #include "skeleton/edge_pieces_internal.h"
 #include "skeleton/facing_faces_internal.h"
 #include "skeleton/generators_internal.h"
@@ -69,18 +70,12 @@ class EdgeView {
   void remember(std::size_t part, int face) { part_view(part).occluders.remember(face); }
 
  private:
-  // Those blockers that may be between a piece and the group, listed when asked for.
-  struct Listed {
-    Box box;
-    std::int32_t blocker;
-  };
   struct PieceView {
-    explicit PieceView(const Generators& g) : occluders(g) {}
+    explicit PieceView(const Generators& g) : occluders(g), between(g) {}
     EdgePiece piece;
     Occluders occluders;
     int hidden_by = -1;
-    bool listed = false, too_many = false;
-    std::vector<Listed> list;
+    BlockerList between;  // it and the group
   };
 
   [[nodiscard]] PieceView& whole() { return views_.front(); }
@@ -88,7 +83,7 @@ class EdgeView {
     return views_[cut_ ? part + 1 : 0];
   }
   void begin_piece(std::size_t view, double from, double to);
-  void list_blockers(PieceView& view);
+  void list_blockers(PieceView& view) const;
   void find_between(PieceView& view, const Shaft& hull);
   void add_between(std::int32_t blocker, const Shaft& hull);
 

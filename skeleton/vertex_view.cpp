@@ -12,6 +12,9 @@
 namespace sightline::internal {
 namespace {
 
+// So many edges share a list of blockers: speed only.
+constexpr int kGroup = 32;
+
 std::array<double, 3> relative(const Point& p, const Point& origin) {
   return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
 }
@@ -169,6 +172,8 @@ VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
       facet_stamp_(scene_.facets().size(), 0),
       occluders_(generators),
       probe_(generators),
+      groups_(ridge_groups(generators.ridge_tree(), kGroup)),
+      between_(generators),
       facing_(generators) {}
 
 struct VertexViewer::Pair {
@@ -273,6 +278,10 @@ void VertexViewer::visit_ridges(VertexView& out) {
     if (!part_.has_below(at, wanted_)) continue;
     const Bvh::Node& node = tree.node(at);
     if (!star_->in_plane_only && hidden(node.box)) continue;
+    if (groups_[at].begins) {
+      group_ = node.box;
+      between_.forget();
+    }
     if (node.count == 0) {
       stack[top++] = node.first + 1;
       stack[top++] = node.first;
@@ -434,47 +443,28 @@ void VertexViewer::split_at_ends(Pair& pair, std::vector<CutInterval>& open) con
 
 // All that may hide some of the edge, from front to back; true once all of it is hidden.
 bool VertexViewer::add_blockers(Pair& pair) {
-  const Bvh& tree = g_.blocker_tree();
-  const Point toward = 0.5 * (pair.e0 + pair.e1) - at_;
-  const auto depth = [&](const Box& box) {
-    double d = 0;
-    for (int i = 0; i < 3; ++i) d += toward[i] * (box.min[i] + box.max[i]);
-    return d;
-  };
+  if (!between_.listed()) {
+    const Point middle{0.5 * (group_.min[0] + group_.max[0]),
+                       0.5 * (group_.min[1] + group_.max[1]),
+                       0.5 * (group_.min[2] + group_.max[2])};
+    between_.list(Shaft(at_, at_, group_), middle - at_);
+  }
   const auto hides_all = [&](int face) {
     add_blocker(pair, face);
     if (!pair.closed.covers_all()) return false;
     occluders_.remember(face);
     return true;
   };
-  std::uint32_t stack[128];
-  int top = 0;
-  stack[top++] = 0;
-  while (top > 0) {
-    const Bvh::Node& node = tree.node(stack[--top]);
-    if (!pair.triangle.may_meet(node.box)) continue;
-    if (node.count == 0) {
-      const bool left_first =
-          depth(tree.node(node.first).box) <= depth(tree.node(node.first + 1).box);
-      stack[top++] = node.first + (left_first ? 1 : 0);
-      stack[top++] = node.first + (left_first ? 0 : 1);
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      const std::int32_t blocker = g_.blockers()[tree.items()[node.first + i]];
-      pair.blockers.push_back(blocker);
-      if (blocker < 0) {
-        if (hides_all(~blocker)) return true;
-        continue;
-      }
-      // A line that supports a convex solid does not meet it elsewhere.
-      if (blocker == pair.edge->object || contains(own_objects_, blocker)) continue;
-      for (const std::int32_t face : facing_.of(blocker)) {
-        if (pair.triangle.may_meet(g_.face_box(face)) && hides_all(face)) return true;
-      }
-    }
-  }
-  return false;
+  return between_.any_of(pair.triangle, [&](std::int32_t blocker) {
+    pair.blockers.push_back(blocker);
+    if (blocker < 0) return hides_all(~blocker);
+    // A line that supports a convex solid does not meet it elsewhere.
+    if (blocker == pair.edge->object || contains(own_objects_, blocker)) return false;
+    const auto facing = facing_.of(blocker);
+    return std::any_of(facing.begin(), facing.end(), [&](int face) {
+      return pair.triangle.may_meet(g_.face_box(face)) && hides_all(face);
+    });
+  });
 }
 
 void VertexViewer::list_faces(Pair& pair) const {

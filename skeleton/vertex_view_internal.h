@@ -8,12 +8,14 @@
 #include <span>
 #include <vector>
 
+#include "skeleton/blocker_list_internal.h"
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/facing_faces_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/line_probe_internal.h"
 #include "skeleton/occluders_internal.h"
 #include "skeleton/part_internal.h"
+#include "skeleton/ridge_groups_internal.h"
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
@@ -121,6 +123,9 @@ class VertexViewer {
   Occluders occluders_;
   std::vector<BoundedPlane> star_planes_;
   LineProbe probe_;
+  std::vector<RidgeGroup> groups_;
+  Box group_;  // at hand
+  BlockerList between_;
   FacingFaces facing_;
 };
 
