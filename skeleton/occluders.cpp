@@ -96,25 +96,33 @@ int Occluders::shadow_of(int face) {
   return index;
 }
 
-bool Occluders::hides(int shadow, const Box& box) const {
-  bool inside = false;
-  const auto all = shadows(shadow);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Hides here = all[k].hides(relative(box.min, viewpoints_[k]),
-                                    relative(box.max, viewpoints_[k]));
-    if (here == Hides::No) return false;
-    inside |= here == Hides::Inside;
+void Occluders::aim(std::span<const Box> parts) {
+  targets_.clear();
+  for (const Point& at : viewpoints_) {
+    Target target;
+    target.parts = parts.size();
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+      target.low[k] = relative(parts[k].min, at);
+      target.high[k] = relative(parts[k].max, at);
+    }
+    for (int i = 0; i < 3; ++i) {
+      target.middle[i] = 0.5 * (target.low.front()[i] + target.high[parts.size() - 1][i]);
+    }
+    targets_.push_back(target);
   }
-  return inside;
 }
 
-bool Occluders::hides(int shadow, const Point& q0, const Point& q1) const {
-  bool inside = false;
+bool Occluders::hides(int shadow) const {
   const auto all = shadows(shadow);
+  // Most are beside: their middle shows it soonest.
   for (std::size_t k = 0; k < all.size(); ++k) {
-    for (const Point& q : {q0, q1}) {
-      const auto at = relative({q[0], q[1], q[2]}, viewpoints_[k]);
-      const Hides here = all[k].hides(at, at);
+    if (!all[k].near(targets_[k].middle)) return false;
+  }
+  bool inside = false;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Target& target = targets_[k];
+    for (std::size_t part = 0; part < target.parts; ++part) {
+      const Hides here = all[k].hides(target.low[part], target.high[part]);
       if (here == Hides::No) return false;
       inside |= here == Hides::Inside;
     }
@@ -122,9 +130,9 @@ bool Occluders::hides(int shadow, const Point& q0, const Point& q1) const {
   return inside;
 }
 
-int Occluders::hider(const Box& box) {
+int Occluders::recent_hider() {
   for (std::size_t k = 0; k < recent_.size(); ++k) {
-    if (!hides(recent_[k], box)) continue;
+    if (!hides(recent_[k])) continue;
     const auto at = recent_.begin() + static_cast<std::ptrdiff_t>(k);
     std::rotate(recent_.begin(), at, at + 1);
     return faces_[recent_.front()];
@@ -132,14 +140,21 @@ int Occluders::hider(const Box& box) {
   return -1;
 }
 
-int Occluders::hider(const Point& q0, const Point& q1) const {
-  const auto at = std::find_if(recent_.begin(), recent_.end(),
-                               [&](int shadow) { return hides(shadow, q0, q1); });
-  return at == recent_.end() ? -1 : faces_[*at];
+int Occluders::hider(const Box& box) {
+  if (recent_.empty()) return -1;
+  aim(std::span(&box, 1));
+  return recent_hider();
+}
+
+int Occluders::hider(const Point& q0, const Point& q1) {
+  if (recent_.empty()) return -1;
+  aim(std::array{box_of(std::span(&q0, 1)), box_of(std::span(&q1, 1))});
+  return recent_hider();
 }
 
 int Occluders::hider(std::span<const std::int32_t> faces, const Point& q0,
                      const Point& q1) {
+  aim(std::array{box_of(std::span(&q0, 1)), box_of(std::span(&q1, 1))});
   const Way way(middle_, 0.5 * (q0 + q1));
   int last = -1;
   for (const std::int32_t face : faces) {
@@ -148,7 +163,7 @@ int Occluders::hider(std::span<const std::int32_t> faces, const Point& q0,
     const int shadow = shadow_of(face);
     if (shadow < 0 || shadow == last) continue;
     last = shadow;
-    if (!hides(shadow, q0, q1)) continue;
+    if (!hides(shadow)) continue;
     keep(shadow);
     return faces_[shadow];
   }

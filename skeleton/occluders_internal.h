@@ -30,7 +30,7 @@ class Occluders {
   /// A face of one that hid something lately and hides each segment in the box; -1.
   [[nodiscard]] int hider(const Box& box);
   /// The segment q0 q1.
-  [[nodiscard]] int hider(const Point& q0, const Point& q1) const;
+  [[nodiscard]] int hider(const Point& q0, const Point& q1);
   /// Of one that some of these faces belong to.
   [[nodiscard]] int hider(std::span<const std::int32_t> faces, const Point& q0,
                           const Point& q1);
@@ -42,13 +42,22 @@ class Occluders {
   [[nodiscard]] std::span<const Shadow> shadows(int shadow) const {
     return std::span(shadows_).subspan(shadow * viewpoints_.size(), viewpoints_.size());
   }
-  [[nodiscard]] bool hides(int shadow, const Box& box) const;
-  [[nodiscard]] bool hides(int shadow, const Point& q0, const Point& q1) const;
+  // Looks at the hull of one box or of two.
+  void aim(std::span<const Box> parts);
+  [[nodiscard]] bool hides(int shadow) const;
+  [[nodiscard]] int recent_hider();
   void keep(int shadow);
 
   const Generators& g_;
   std::vector<Point> viewpoints_;
   Point middle_;  // of the viewpoints
+  // What is looked at, relative to each viewpoint.
+  struct Target {
+    std::array<std::array<double, 3>, 2> low, high;  // of its parts
+    std::size_t parts = 0;
+    std::array<double, 3> middle;
+  };
+  std::vector<Target> targets_;
   std::vector<std::int32_t> own_objects_, own_facets_;
   std::vector<Shadow> shadows_;             // from each viewpoint, occluder by occluder
   std::vector<std::int32_t> faces_;         // one of each occluder with shadows

@@ -267,6 +267,14 @@ enum class Hides : std::uint8_t {
 struct Shadow {
   std::vector<BoundedPlane> planes;  ///< relative to the viewpoint, negative inside
 
+  /// False where hides() would find nothing for whatever the point is in the middle of:
+  /// faster.
+  [[nodiscard]] bool near(const std::array<double, 3>& x) const {
+    return std::none_of(planes.begin(), planes.end(), [&](const BoundedPlane& p) {
+      return p.offset + (p.normal[0] * x[0] + p.normal[1] * x[1] + p.normal[2] * x[2]) >
+             0;
+    });
+  }
   /// Of the box with these corners, relative to the viewpoint.
   [[nodiscard]] Hides hides(const std::array<double, 3>& low,
                             const std::array<double, 3>& high) const {
