@@ -62,7 +62,9 @@ void EdgePairs::visit(int i, const std::function<bool()>& stop,
     if (stop()) return;
     for (std::uint32_t k = 0; k < node.count; ++k) {
       const int j = static_cast<int>(tree.items()[node.first + k]);
-      if (j > i && selection_.has(j) && selection_.has_outer(i, j)) {
+      if (j > i && selection_.has(j) && selection_.has_outer(i, j) &&
+          !g_.ridge_sides(node.first + k)
+               .never_touched_from(view_.end(0), view_.end(1))) {
         visit_pair(i, j, out);
       }
     }

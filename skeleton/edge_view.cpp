@@ -19,11 +19,6 @@ void sort_unique(std::vector<T>& items) {
 
 }  // namespace
 
-std::array<bool, 2> touched_on(const Ridge& r) {
-  return {r.contact(Sign::Negative, Sign::Negative) != EdgeContact::None,
-          r.contact(Sign::Positive, Sign::Positive) != EdgeContact::None};
-}
-
 EdgeView::EdgeView(const Generators& generators)
     : g_(generators), cutter_(generators), facing_(generators) {
   views_.emplace_back(g_);

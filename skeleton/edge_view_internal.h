@@ -19,10 +19,6 @@
 
 namespace sightline::internal {
 
-/// From behind both planes of a ridge's wedge, from in front of both: some line touches
-/// the edge.
-[[nodiscard]] std::array<bool, 2> touched_on(const Ridge& ridge);
-
 /// Keeps scratch, so one per thread.
 class EdgeView {
  public:

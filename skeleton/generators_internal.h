@@ -13,6 +13,7 @@
 #include "linespace/contact_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
+#include "skeleton/ridge_sides_internal.h"
 #include "skeleton/skeleton.h"
 
 namespace sightline::internal {
@@ -73,6 +74,13 @@ struct Ridge {
     return ends ? EdgeContact::End : EdgeContact::None;
   }
 };
+
+/// From behind both planes of a ridge's wedge, from in front of both: some line touches
+/// the edge.
+[[nodiscard]] inline std::array<bool, 2> touched_on(const Ridge& r) {
+  return {r.contact(Sign::Negative, Sign::Negative) != EdgeContact::None,
+          r.contact(Sign::Positive, Sign::Positive) != EdgeContact::None};
+}
 
 /// The faces around a corner, touching ones of other objects included.
 struct Star {
@@ -144,6 +152,10 @@ class Generators {
   [[nodiscard]] const Bvh& blocker_tree() const { return blocker_tree_; }
   /// Over ridges(); leaves hold ridge numbers.
   [[nodiscard]] const Bvh& ridge_tree() const { return ridge_tree_; }
+  /// Of the ridge at this position in ridge_tree().items().
+  [[nodiscard]] const RidgeSides& ridge_sides(std::size_t position) const {
+    return ridge_sides_[position];
+  }
   [[nodiscard]] const PlaneSide& face_plane(int face) const { return face_planes_[face]; }
   [[nodiscard]] const Box& face_box(int face) const { return face_boxes_[face]; }
   /// Around all faces of an object; a point for one without.
@@ -173,6 +185,7 @@ class Generators {
   std::vector<std::int32_t> blockers_;
   std::vector<PlaneSide> face_planes_;
   std::vector<Ridge> ridges_;
+  std::vector<RidgeSides> ridge_sides_;
   std::vector<std::int32_t> ridge_of_edge_;
   std::vector<Star> stars_;
   std::vector<std::int32_t> star_of_point_;

@@ -253,6 +253,9 @@ void Generators::find_ridges() {
     if (ridge_of_edge_[i] == static_cast<int>(ridges_.size())) ridge_of_edge_[i] = -1;
   }
   ridge_tree_ = Bvh(boxes);
+  for (const std::uint32_t i : ridge_tree_.items()) {
+    ridge_sides_.emplace_back(s, ridges_[i]);
+  }
 }
 
 // To the ridge of an edge with the same ends, found before.

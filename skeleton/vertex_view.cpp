@@ -288,6 +288,7 @@ void VertexViewer::visit_ridges(VertexView& out) {
       continue;
     }
     for (std::uint32_t i = 0; i < node.count; ++i) {
+      if (g_.ridge_sides(node.first + i).never_touched_from(at_)) continue;
       view_ridge(static_cast<int>(tree.items()[node.first + i]), out);
     }
   }

@@ -118,7 +118,7 @@ TEST(EdgeView, WhatIsHiddenIsBlocked) {
   EXPECT_GT(city.edges, 500);
   EXPECT_GT(city.groups, 100);
   EXPECT_GT(city.piece_edges, 500);
-  EXPECT_GT(city.piece_groups, 500);
+  EXPECT_GT(city.piece_groups, 200);
   const Hidden grid = check_hidden(testing::grid_city(3, 120), 5);
   EXPECT_GT(grid.edges, 200);
   const Hidden polytopes =
