@@ -6,6 +6,9 @@
 namespace sightline::viewers {
 namespace {
 
+/// Darker than anything lit, as on an architect's section.
+constexpr Colour kCutColour{0.33F, 0.34F, 0.38F};
+
 /// Where the segment from a to b, with ends on different sides of the plane, crosses it.
 Point crossing(const Point& a, const Point& b, int axis, double at) {
   return a + (at - a[axis]) / (b[axis] - a[axis]) * (b - a);
@@ -78,7 +81,11 @@ Drawing clipped(const Drawing& drawing, const std::array<Point, 2>& box) {
       triangles.back().points = {polygon[0], polygon[i - 1], polygon[i]};
     }
   };
-  for (const PaintedTriangle& t : drawing.triangles) clip_into(t, inside.triangles);
+  inside.cut.emplace(CutSolids{box, {}, kCutColour});
+  for (const PaintedTriangle& t : drawing.triangles) {
+    clip_into(t, inside.triangles);
+    if (t.solid) inside.cut->triangles.push_back(t.points);
+  }
   for (const VeilTriangle& t : drawing.veils) clip_into(t, inside.veils);
   for (const Stroke& stroke : drawing.strokes) {
     if (const auto points = clip_segment(stroke.points, box)) {

@@ -33,6 +33,7 @@ namespace sightline::viewers {
     const std::array<Point, 2>& segment, const std::array<Point, 2>& box);
 
 /// What of the drawing is inside the box: triangles, veils and strokes cut at its faces.
+/// Solids appear cut open (Drawing::cut).
 [[nodiscard]] Drawing clipped(const Drawing& drawing, const std::array<Point, 2>& box);
 
 /// No triangle, veil or stroke.
