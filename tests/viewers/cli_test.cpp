@@ -448,10 +448,14 @@ TEST_F(Pictures, ArcsAreCutAtTheBoxNotDropped) {
   const std::string ev = picture(saved.string(), {"--box", box, "--kinds", "EV"});
   EXPECT_NE(all, ev);
   EXPECT_NE(ev, picture(saved.string(), {"--box", box, "--kinds", "VV"}));
+  // Two cubes have no line through four edges of four objects.
+  expect_view_refused(saved.string(), {"--box", box, "--kinds", "EEEE"},
+                      "--box: nothing");
   // The same from the VTK files, which hold triangles and strokes.
   const fs::path vtk = folder_ / "io" / "vtk";
   ASSERT_EQ(run({"skeleton", scene, "--vtk", vtk.string()}).status, 0);
   EXPECT_NE(picture(vtk.string(), {"--box", box}), all);
+  expect_view_refused(vtk.string(), {"--box", "1.5,2,0,2.5,3,1"}, "--box: nothing");
 }
 
 TEST_F(Pictures, FromTheChosenEye) {

@@ -143,13 +143,14 @@ TEST(Cut, ASolidCutOpenShowsTheCut) {
   EXPECT_NEAR(green, side * side, 2 * side);
 }
 
-TEST(Cut, WhatIsInFrontOfTheCutHidesNothingBehindIt) {
-  // A sheet within the cube, below the cut: inside the solid, so not seen.
+TEST(Cut, HidesWhatIsInsideOfTheSolid) {
+  // A sheet within the cube, below the cut.
   Drawing both = cube();
   both.triangles.push_back(triangle_at(-0.5, kRed, 9));
   Drawing half = clipped(both, kLowerHalf);
   half.cut->colour = kGreen;
   EXPECT_EQ(centre(render(half, from_above(), plain()))[1], 255);
+  EXPECT_EQ(visible_ids(half, from_above(), 64, 64)[64 * 32 + 32], -1);
 }
 
 TEST(Cut, SheetsAndWholeSolidsHaveNone) {
