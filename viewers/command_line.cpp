@@ -86,7 +86,10 @@ std::optional<std::array<Point, 2>> region_box(const std::vector<double>& region
                                                const char* option) {
   if (region.empty()) return std::nullopt;
   const Point low(region[0], region[1], region[2]), high(region[3], region[4], region[5]);
-  if (!low.allFinite() || !high.allFinite() || (low.array() > high.array()).any()) {
+  if (!low.allFinite() || !high.allFinite()) {
+    throw UsageError(fmt::format("{}: not six finite numbers", option));
+  }
+  if ((low.array() > high.array()).any()) {
     throw UsageError(
         fmt::format("{}: the first corner must not exceed the second", option));
   }

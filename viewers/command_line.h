@@ -52,7 +52,7 @@ void add_size_budget_option(CLI::App& app, std::size_t& bytes);
 void add_region_option(CLI::App& app, std::vector<double>& region);
 
 /// The six numbers of --region as a box; nullopt when none were given.  Throws UsageError
-/// when a lower corner is above its upper one.
+/// when one is not finite or a lower corner is above its upper one.
 [[nodiscard]] std::optional<std::array<Point, 2>> region_box(
     const std::vector<double>& region, const char* option = "--region");
 

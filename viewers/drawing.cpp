@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "viewers/clip.h"
 #include "viewers/eee_surface.h"
 #include "viewers/palette.h"
 
@@ -29,6 +30,20 @@ double area_of(const Scene& scene, int face) {
     twice += (scene.point(ids[i - 1]) - a).cross(scene.point(ids[i]) - a);
   }
   return 0.5 * twice.norm();
+}
+
+/// The object looks like a solid from everywhere: its faces' normals, weighted by area,
+/// cancel, as those of every closed surface do, also where the file's edges do not match.
+bool encloses_solid(const Scene& scene, const Object& object) {
+  if (object.closed) return true;
+  Point sum = Point::Zero();
+  double area = 0;
+  for (const int f : object.faces) {
+    const double a = area_of(scene, f);
+    sum += a * normal_of(scene, f);
+    area += a;
+  }
+  return sum.norm() <= 1e-6 * area;
 }
 
 /// Some point of the object lies in the plane of that axis at that coordinate.
@@ -83,6 +98,10 @@ std::vector<char> faces_shown(const Scene& scene, const Point& towards_eye) {
 Drawing draw_faces(const Scene& scene, const std::vector<char>& shown) {
   Drawing drawing;
   const std::vector<Colour> colours = object_colours(scene);
+  std::vector<char> solid;
+  for (const Object& object : scene.objects()) {
+    solid.push_back(encloses_solid(scene, object) ? 1 : 0);
+  }
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
     if (!shown[f]) continue;
     const Face& face = scene.faces()[f];
@@ -93,73 +112,37 @@ Drawing draw_faces(const Scene& scene, const std::vector<char>& shown) {
           {{scene.point(ids[0]), scene.point(ids[i - 1]), scene.point(ids[i])},
            colours[face.object],
            closed,
-           face.facet});
+           face.facet,
+           solid[face.object] != 0});
     }
   }
   return drawing;
 }
 
 void add_edges(Drawing& drawing, const Scene& scene, const std::vector<char>& shown,
-               const Point& eye) {
-  // Fine meshes would be black with edges: fewer pixels and less ink for more edges.
-  const double crowd = static_cast<double>(scene.edges().size());
-  const float opacity = static_cast<float>(std::clamp(900 / crowd, 0.07, 0.8));
-  const float width = crowd > 3000 ? 0.8F : 1.4F;
+               const Point& eye, const std::optional<std::array<Point, 2>>& box) {
+  std::vector<std::array<Point, 2>> seen;
   for (const Edge& edge : scene.edges()) {
-    const bool seen = std::ranges::any_of(edge.sides, [&](const Edge::Side& side) {
+    const bool is_seen = std::ranges::any_of(edge.sides, [&](const Edge::Side& side) {
       if (!shown[side.face]) return false;
       const Face& face = scene.faces()[side.face];
       const Point& p = scene.point(scene.face_points(side.face)[0]);
       return !scene.objects()[face.object].closed ||
              normal_of(scene, side.face).dot(eye - p) > 0;
     });
-    if (!seen) continue;
-    drawing.strokes.push_back({{scene.point(edge.points[0]), scene.point(edge.points[1])},
-                               kInk,
-                               width,
-                               opacity});
+    if (!is_seen) continue;
+    const std::array<Point, 2> ends{scene.point(edge.points[0]),
+                                    scene.point(edge.points[1])};
+    if (const auto part = box ? clip_segment(ends, *box) : std::optional(ends))
+      seen.push_back(*part);
   }
-}
-
-/// The camera that looks along -towards_eye and just holds a box.
-Camera frame(const std::array<Point, 2>& box, const Point& towards_eye, const Point& up,
-             double aspect) {
-  const auto& [low, high] = box;
-  Camera camera;
-  camera.target = 0.5 * (low + high);
-  camera.up = up;
-  const double slope_y = std::tan(0.5 * camera.field_of_view) * 0.94;
-  const double slope_x = slope_y * aspect;
-  const Point right = up.cross(towards_eye).normalized();
-  const Point top = towards_eye.cross(right).normalized();
-  double distance = 1e-3 * (high - low).norm();
-  // Two rounds: the first finds the distance, the second after centring the picture.
-  for (int round = 0; round < 4; ++round) {
-    distance = 0;
-    std::array<double, 4> reach{-1e300, 1e300, -1e300, 1e300};
-    for (int i = 0; i < 8; ++i) {
-      const Point corner(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
-                         i & 4 ? high.z() : low.z());
-      const Point d = corner - camera.target;
-      const double depth = d.dot(towards_eye);
-      distance = std::max({distance, depth + std::abs(d.dot(right)) / slope_x,
-                           depth + std::abs(d.dot(top)) / slope_y});
-    }
-    for (int i = 0; i < 8; ++i) {
-      const Point corner(i & 1 ? high.x() : low.x(), i & 2 ? high.y() : low.y(),
-                         i & 4 ? high.z() : low.z());
-      const Point d = corner - camera.target;
-      const double z = distance - d.dot(towards_eye);
-      reach[0] = std::max(reach[0], d.dot(right) / z);
-      reach[1] = std::min(reach[1], d.dot(right) / z);
-      reach[2] = std::max(reach[2], d.dot(top) / z);
-      reach[3] = std::min(reach[3], d.dot(top) / z);
-    }
-    camera.target += 0.5 * distance *
-                     ((reach[0] + reach[1]) * right + (reach[2] + reach[3]) * top) * 0.9;
+  // Fine meshes would be black with edges: fewer pixels and less ink for more edges.
+  const double crowd = static_cast<double>(box ? seen.size() : scene.edges().size());
+  const float opacity = static_cast<float>(std::clamp(900 / crowd, 0.07, 0.8));
+  const float width = crowd > 3000 ? 0.8F : 1.4F;
+  for (const std::array<Point, 2>& ends : seen) {
+    drawing.strokes.push_back({ends, kInk, width, opacity});
   }
-  camera.eye = camera.target + distance * towards_eye;
-  return camera;
 }
 
 /// Of the facets that count.
@@ -214,16 +197,11 @@ int guess_up_axis(const Scene& scene) {
 
 namespace {
 
-// A direction towards the eye, off the axes and diagonals, where aligned scenes look
-// flat.
-Point eye_direction(int up_axis, double elevation, double turn) {
-  Point up = Point::Zero(), ahead = Point::Zero();
-  up[up_axis] = 1;
-  ahead[(up_axis + 1) % 3] = 1;
-  const Point aside = up.cross(ahead);
-  const double azimuth = 0.31 + 2 * M_PI * turn;
-  return std::sin(elevation) * up +
-         std::cos(elevation) * (std::cos(azimuth) * ahead + std::sin(azimuth) * aside);
+/// What the options leave of the faces.
+Drawing faces_within(const Scene& scene, const std::vector<char>& shown,
+                     const ViewOptions& options) {
+  Drawing faces = draw_faces(scene, shown);
+  return options.box ? clipped(faces, *options.box) : faces;
 }
 
 }  // namespace
@@ -233,7 +211,7 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
   const Point up = Point::Unit(axis);
   const double aspect = static_cast<double>(options.width) / options.height;
 
-  std::array<Point, 2> framed = scene.bounds();
+  std::array<Point, 2> framed = options.box.value_or(scene.bounds());
   std::vector<char> counts(scene.facets().size(), 1);
   if (options.focus) {
     const auto& [low, high] = *options.focus;
@@ -248,49 +226,73 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
     }
   }
 
-  const bool large = scene.faces().size() > 20000;
-  const int turns = large ? 6 : 12;
-  Point best = Point::Zero();
-  double best_score = -1;
-  for (const double elevation : {0.42, 0.62}) {
-    for (int turn = 0; turn < turns; ++turn) {
-      const Point direction =
-          eye_direction(axis, elevation, static_cast<double>(turn) / turns);
-      const Drawing faces = draw_faces(scene, faces_shown(scene, direction));
-      const Camera camera = frame(framed, direction, up, aspect);
-      const double score = entropy(visible_ids(faces, camera, 168, 118), counts);
-      if (score > best_score * (1 + 1e-9)) {
-        best_score = score;
-        best = direction;
+  SceneView view;
+  std::vector<char> shown(scene.faces().size(), 1);
+  const bool whole = options.box || options.look;
+  if (whole) view.drawing = faces_within(scene, shown, options);
+  if (options.look) {
+    view.camera = look_from(options.look->eye, options.look->at, framed, axis, aspect);
+  } else {
+    const bool large = scene.faces().size() > 20000;
+    const int turns = large ? 6 : 12;
+    // What a box cuts open is best looked into from above.
+    std::vector<double> elevations{0.42, 0.62};
+    if (options.box) elevations.insert(elevations.end(), {0.85, 1.1});
+    Point best = Point::Zero();
+    double best_score = -1;
+    for (const double elevation : elevations) {
+      for (int turn = 0; turn < turns; ++turn) {
+        const Point direction =
+            eye_direction(axis, elevation, static_cast<double>(turn) / turns);
+        const Camera camera = frame(framed, direction, up, aspect);
+        const Drawing faces =
+            whole ? Drawing{} : draw_faces(scene, faces_shown(scene, direction));
+        const double score =
+            entropy(visible_ids(whole ? view.drawing : faces, camera, 168, 118), counts);
+        if (score > best_score * (1 + 1e-9)) {
+          best_score = score;
+          best = direction;
+        }
       }
+    }
+    view.camera = frame(framed, best, up, aspect);
+    if (!whole) {
+      shown = faces_shown(scene, best);
+      view.drawing = draw_faces(scene, shown);
     }
   }
 
-  SceneView view;
-  const std::vector<char> shown = faces_shown(scene, best);
-  view.camera = frame(framed, best, up, aspect);
-  view.drawing = draw_faces(scene, shown);
   view.polygon_shown.assign(scene.soup().polygons.size(), 0);
   for (std::size_t f = 0; f < shown.size(); ++f) {
     if (shown[f]) view.polygon_shown[scene.faces()[f].source] = 1;
   }
-  add_edges(view.drawing, scene, shown, view.camera.eye);
+  add_edges(view.drawing, scene, shown, view.camera.eye, options.box);
   return view;
+}
+
+std::array<Point, 2> bounds_of(std::span<const VeilTriangle> veils,
+                               std::span<const Stroke> strokes) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::array<Point, 2> bounds = {Point::Constant(kInfinity), Point::Constant(-kInfinity)};
+  const auto include = [&](std::span<const Point> points) {
+    for (const Point& p : points) bounds = {bounds[0].cwiseMin(p), bounds[1].cwiseMax(p)};
+  };
+  for (const VeilTriangle& veil : veils) include(veil.points);
+  for (const Stroke& stroke : strokes) include(stroke.points);
+  return bounds;
 }
 
 SceneView view_marks(std::span<const VeilTriangle> veils, std::span<const Stroke> strokes,
                      const ViewOptions& options) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  std::array<Point, 2> framed = {Point::Constant(kInfinity), Point::Constant(-kInfinity)};
-  const auto include = [&](std::span<const Point> points) {
-    for (const Point& p : points) framed = {framed[0].cwiseMin(p), framed[1].cwiseMax(p)};
-  };
-  for (const VeilTriangle& veil : veils) include(veil.points);
-  for (const Stroke& stroke : strokes) include(stroke.points);
+  const std::array<Point, 2> framed =
+      options.box ? *options.box : bounds_of(veils, strokes);
   const int axis = options.up_axis >= 0 ? options.up_axis : 2;
+  const double aspect = static_cast<double>(options.width) / options.height;
   SceneView view;
-  view.camera = frame(framed, eye_direction(axis, 0.42, 0), Point::Unit(axis),
-                      static_cast<double>(options.width) / options.height);
+  view.camera =
+      options.look
+          ? look_from(options.look->eye, options.look->at, framed, axis, aspect)
+          : frame(framed, eye_direction(axis, 0.42, 0), Point::Unit(axis), aspect);
   return view;
 }
 
@@ -444,6 +446,29 @@ std::string kind_name(const SkeletonNode& node) {
       return "degenerate";
   }
   return node.self ? name + "_self" : name;
+}
+
+std::vector<std::string> kind_names() {
+  std::vector<std::string> names;
+  for (const bool self : {false, true}) {
+    SkeletonArc ev{};
+    ev.self = self;
+    EeeArc eee{};
+    eee.self = self;
+    names.insert(names.end(), {kind_name(ev), kind_name(eee)});
+  }
+  for (const bool self : {false, true}) {
+    for (const NodeKind kind :
+         {NodeKind::VV, NodeKind::VEE, NodeKind::EVE, NodeKind::FvE, NodeKind::EEEE,
+          NodeKind::FEE, NodeKind::FF, NodeKind::Saddle, NodeKind::Pierce}) {
+      SkeletonNode node{};
+      node.kind = kind;
+      node.self = self;
+      names.push_back(kind_name(node));
+    }
+  }
+  names.emplace_back("degenerate");
+  return names;
 }
 
 std::vector<int> evenly_spread(std::size_t size, std::size_t limit) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "skeleton/skeleton.h"
+#include "viewers/camera.h"
 #include "viewers/far_ends.h"
 #include "viewers/picture.h"
 
@@ -19,11 +20,21 @@ namespace sightline::viewers {
 /// looks.
 [[nodiscard]] std::vector<char> envelope_objects(const Scene& scene);
 
+/// Two different points.
+struct Look {
+  Point eye, at;
+};
+
 struct ViewOptions {
   int up_axis = -1;  ///< 0, 1, 2; -1 to guess
   int width = 1400, height = 980;
   /// What to look at: the camera frames half as much again; everything when empty.
   std::optional<std::array<Point, 2>> focus;
+  /// Only what is inside this box is drawn, cut at its faces, and the camera frames it.
+  std::optional<std::array<Point, 2>> box;
+  /// From where to look, instead of from where most is seen; what is framed is held as
+  /// look_from() does.
+  std::optional<Look> look;
 };
 
 /// A scene ready to be drawn on.
@@ -36,8 +47,12 @@ struct SceneView {
 /// Every face with its edges, from the direction in which most is seen (the largest
 /// entropy of visible facets over a fixed set of directions, after Vazquez et al. 2001).
 /// Walls that would shut the viewer out are left away: a side of the bounding box that
-/// thin things close by more than half.
+/// thin things close by more than half.  With a box or a look nothing is left away.
 [[nodiscard]] SceneView view_scene(const Scene& scene, const ViewOptions& options = {});
+
+/// The smallest box that holds lines and polygons; requires one at least.
+[[nodiscard]] std::array<Point, 2> bounds_of(std::span<const VeilTriangle> veils,
+                                             std::span<const Stroke> strokes);
 
 /// The camera for lines and polygons without a scene: all of them in the frame, z up
 /// unless the options say otherwise.  Requires one at least.
@@ -85,6 +100,9 @@ void add_box(Drawing& drawing, const std::array<Point, 2>& box, const Colour& co
 [[nodiscard]] std::string kind_name(const SkeletonArc& arc);
 [[nodiscard]] std::string kind_name(const EeeArc& arc);
 [[nodiscard]] std::string kind_name(const SkeletonNode& node);
+
+/// Every name that kind_name() gives, arcs first.
+[[nodiscard]] std::vector<std::string> kind_names();
 
 /// At most `limit` of the numbers 0 to size-1, evenly spread, always the same.
 [[nodiscard]] std::vector<int> evenly_spread(std::size_t size, std::size_t limit);

@@ -45,6 +45,13 @@ class Projection {
     return {(p.x - half_width_) / (focal_ * p.w), (half_height_ - p.y) / (focal_ * p.w),
             1 / p.w};
   }
+  /// The same with the picture moved by so many samples.
+  [[nodiscard]] Projection moved(double x, double y) const {
+    Projection copy = *this;
+    copy.half_width_ += x;
+    copy.half_height_ += y;
+    return copy;
+  }
   /// Pixels per unit of length at depth 1.
   [[nodiscard]] double focal() const { return focal_; }
   [[nodiscard]] double near() const { return near_; }
@@ -263,6 +270,62 @@ void fill_stroke(const Projection& projection, const Stroke& stroke, double half
   fill_triangle(corner[0], corner[2], corner[3], raster, plot);
 }
 
+/// Calls plot(index, w, normal) for every sample that sees a solid cut open, with the
+/// cut's depth and the outward normal of the box's face (scene coordinates).
+///
+/// From a point on, a ray leaves as many solids as it enters, but for those that hold the
+/// point.  So behind the point where it enters the box, back sides less front sides
+/// count the solids that are cut there.
+template <typename Plot>
+void fill_cut(const CutSolids& cut, const Projection& centred, int width, int height,
+              const Plot& plot) {
+  const Raster raster{width, 0, height};
+  // A ray through the side between two triangles would count both: aligned scenes have
+  // such rays through the samples' centres, but hardly beside them.
+  const Projection projection = centred.moved(0.0137, 0.0219);
+  const Point& eye = projection.eye();
+  const auto corner = [&](const std::array<int, 3>& side) {
+    return Point(cut.box[side[0]].x(), cut.box[side[1]].y(), cut.box[side[2]].z());
+  };
+  std::vector<float> entry(raster.size(), 0.0F);
+  std::vector<std::int8_t> face(raster.size(), -1);
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int end = 0; end < 2; ++end) {
+      const double outside = (end == 0 ? -1 : 1) * (eye[axis] - cut.box[end][axis]);
+      if (outside <= 0) continue;
+      std::array<Point, 4> corners;
+      for (int i = 0; i < 4; ++i) {
+        std::array<int, 3> side;
+        side[axis] = end;
+        side[(axis + 1) % 3] = i == 1 || i == 2 ? 1 : 0;
+        side[(axis + 2) % 3] = i >= 2 ? 1 : 0;
+        corners[i] = corner(side);
+      }
+      fill_polygon(projection, corners, raster, [&](std::size_t i, float w) {
+        entry[i] = w;
+        face[i] = static_cast<std::int8_t>(2 * axis + end);
+      });
+    }
+  }
+  std::vector<std::int16_t> inside(raster.size(), 0);
+  for (const std::array<Point, 3>& t : cut.triangles) {
+    const double facing = (t[1] - t[0]).cross(t[2] - t[0]).dot(eye - t[0]);
+    if (facing == 0) continue;
+    fill_polygon(projection, t, raster, [&](std::size_t i, float w) {
+      // A solid that begins or ends in the box's own face is not cut there: the box must
+      // run through it by more than a tolerance, which is a matter of looks.
+      const bool leaves = facing < 0;
+      if (w < entry[i] * (leaves ? 1 - 1e-5F : 1 + 1e-5F)) inside[i] += leaves ? 1 : -1;
+    });
+  }
+  for (std::size_t i = 0; i < inside.size(); ++i) {
+    if (inside[i] <= 0) continue;
+    Point normal = Point::Zero();
+    normal[face[i] / 2] = face[i] % 2 == 0 ? -1 : 1;
+    plot(i, entry[i], normal);
+  }
+}
+
 /// What each pixel's centre shows.
 std::vector<Surface> visible_surfaces(const Drawing& drawing,
                                       const Projection& projection, int width,
@@ -284,6 +347,15 @@ std::vector<Surface> visible_surfaces(const Drawing& drawing,
       const double y = static_cast<double>(i / width) + 0.5;
       surfaces[i] = {projection.from_screen({x, y, w}), normal};
     });
+  }
+  if (drawing.cut) {
+    fill_cut(*drawing.cut, projection, width, height,
+             [&](std::size_t i, float w, const Point& normal) {
+               const double x = static_cast<double>(i % width) + 0.5;
+               const double y = static_cast<double>(i / width) + 0.5;
+               surfaces[i] = {projection.from_screen({x, y, w}),
+                              projection.to_eye(projection.eye() + normal)};
+             });
   }
   return surfaces;
 }
@@ -378,6 +450,15 @@ void Canvas::Impl::draw_triangles(const Drawing& drawing, const Point& up) {
       std::copy_n(paint.begin(), 3, rgb.begin() + static_cast<std::ptrdiff_t>(3 * i));
     });
   }
+  if (!drawing.cut) return;
+  const Colour& c = drawing.cut->colour;
+  const std::array<std::uint8_t, 3> paint{to_byte(c.red), to_byte(c.green),
+                                          to_byte(c.blue)};
+  fill_cut(
+      *drawing.cut, projection, width, height, [&](std::size_t i, float w, const Point&) {
+        nearest[i] = w;
+        std::copy_n(paint.begin(), 3, rgb.begin() + static_cast<std::ptrdiff_t>(3 * i));
+      });
 }
 
 /// On a raster of one sample a pixel.
@@ -385,7 +466,9 @@ void Canvas::Impl::darken_crevices(const Drawing& drawing, const Camera& camera)
   const Projection coarse(camera, options.width, options.height);
   const std::vector<Surface> surfaces =
       visible_surfaces(drawing, coarse, options.width, options.height);
-  const double reach = 0.055 * (camera.target - camera.eye).norm();
+  // The same on the picture whatever the angle.
+  const double reach = 0.055 * (camera.target - camera.eye).norm() *
+                       std::tan(0.5 * camera.field_of_view) / std::tan(0.3);
   const std::vector<float> open =
       smoothed(openness(surfaces, options.width, options.height, reach, coarse.focal()),
                surfaces, options.width, options.height, reach);
@@ -477,6 +560,10 @@ std::vector<int> visible_ids(const Drawing& drawing, const Camera& camera, int w
       nearest[i] = w;
       ids[i] = t.id;
     });
+  }
+  if (drawing.cut) {
+    fill_cut(*drawing.cut, projection, width, height,
+             [&](std::size_t i, float, const Point&) { ids[i] = -1; });
   }
   return ids;
 }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,8 @@ struct PaintedTriangle {
   Colour colour;
   bool cull_back = false;  ///< not drawn where its clockwise side faces the camera
   int id = 0;              ///< what visible_ids() reports
+  /// Of a surface that encloses a solid, counter-clockwise seen from outside.
+  bool solid = false;
 };
 
 /// A translucent triangle, unlit; overlapping ones blend whatever their order.
@@ -45,11 +48,21 @@ struct Stroke {
   float hidden_opacity = 0;
 };
 
+/// Solids cut open by a box.  Who looks from outside of the box sees the cut, where the
+/// ray enters the box inside a solid, as an unlit face of the box.
+struct CutSolids {
+  std::array<Point, 2> box;  ///< smallest, largest coordinates
+  /// Whole, of closed surfaces, counter-clockwise seen from outside of the solid.
+  std::vector<std::array<Point, 3>> triangles;
+  Colour colour;
+};
+
 /// What is to be drawn, in scene units.
 struct Drawing {
   std::vector<PaintedTriangle> triangles;
   std::vector<VeilTriangle> veils;
   std::vector<Stroke> strokes;
+  std::optional<CutSolids> cut;
 };
 
 /// A perspective camera.
@@ -90,7 +103,8 @@ class Canvas {
 [[nodiscard]] Image render(const Drawing& drawing, const Camera& camera,
                            const PictureOptions& options = {});
 
-/// The ids of the triangles seen by each of width x height rays, -1 for the background.
+/// The ids of the triangles seen by each of width x height rays, -1 for the background
+/// and for solids cut open.
 [[nodiscard]] std::vector<int> visible_ids(const Drawing& drawing, const Camera& camera,
                                            int width, int height);
 

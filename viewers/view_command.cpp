@@ -4,10 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <functional>
 #include <iostream>
+#include <utility>
 
 #include "linespace/mesh_io.h"
+#include "viewers/clip.h"
 #include "viewers/command_line.h"
 #include "viewers/drawing.h"
 #include "viewers/output_file.h"
@@ -25,6 +29,8 @@ struct ViewCommandOptions {
   std::string png;
   std::string up;
   std::vector<int> size{1400, 980};
+  std::vector<double> box, eye, look_at;
+  std::vector<std::string> kinds;  // all when empty
 };
 
 /// The file that stands for a folder of results.
@@ -63,40 +69,147 @@ Shown read_shown(const fs::path& file) {
   return {Scene(read_mesh(file.string())), {}, {}, {}};
 }
 
+/// The three numbers of an option as a point.
+Point point_of(const std::vector<double>& numbers, const char* option) {
+  const Point p(numbers[0], numbers[1], numbers[2]);
+  if (!p.allFinite()) throw UsageError(fmt::format("{}: not a finite point", option));
+  return p;
+}
+
+std::array<Point, 2> bounds_of(const Shown& shown) {
+  return shown.scene ? shown.scene->bounds() : bounds_of(shown.veils, shown.strokes);
+}
+
+/// What the command line says of box and eye; refuses what gives no picture.
+ViewOptions view_options_of(const ViewCommandOptions& options, const Shown& shown) {
+  ViewOptions view;
+  view.width = options.size[0];
+  view.height = options.size[1];
+  if (!options.up.empty()) view.up_axis = options.up[0] - 'x';
+  view.box = region_box(options.box, "--box");
+  if (view.box && ((*view.box)[0].array() == (*view.box)[1].array()).any()) {
+    throw UsageError("--box: has no extent in x, y or z");
+  }
+  if (options.eye.empty()) return view;
+  const auto [low, high] = view.box ? *view.box : bounds_of(shown);
+  const bool told = !options.look_at.empty();
+  view.look = {point_of(options.eye, "--eye"),
+               told ? point_of(options.look_at, "--look-at") : 0.5 * (low + high)};
+  const double distance = (view.look->at - view.look->eye).norm();
+  if (!(distance > 0)) {
+    throw UsageError(told ? "--eye: is the same point as --look-at"
+                          : "--eye: is the middle of what is shown; say where to look "
+                            "with --look-at x,y,z");
+  }
+  if (!std::isfinite(distance)) throw UsageError("--eye: is too far away");
+  return view;
+}
+
+/// Adds the marks, or what of them is inside the box.
+void add_marks(Drawing& drawing, Drawing marks, const ViewOptions& options) {
+  if (options.box) marks = clipped(marks, *options.box);
+  drawing.veils.insert(drawing.veils.end(), marks.veils.begin(), marks.veils.end());
+  drawing.strokes.insert(drawing.strokes.end(), marks.strokes.begin(),
+                         marks.strokes.end());
+}
+
+/// At most `limit` of the items of these kinds (all if none is named), evenly spread
+/// over those that reach into the box.
+template <typename Item>
+std::vector<int> chosen(const std::vector<Item>& items, std::size_t limit,
+                        const std::vector<std::string>& kinds, const ViewOptions& options,
+                        const std::function<void(Drawing&, std::span<const int>)>& draw) {
+  std::vector<int> candidates;
+  for (int i = 0; i < static_cast<int>(items.size()); ++i) {
+    if (!kinds.empty() && std::ranges::find(kinds, kind_name(items[i])) == kinds.end()) {
+      continue;
+    }
+    if (options.box) {
+      Drawing one;
+      draw(one, {&i, 1});
+      if (is_empty(clipped(one, *options.box))) continue;
+    }
+    candidates.push_back(i);
+  }
+  std::vector<int> spread = evenly_spread(candidates.size(), limit);
+  for (int& i : spread) i = candidates[i];
+  return spread;
+}
+
+/// Many marks are drawn fainter, so that they stay readable.
+float opacity_of(std::size_t veils) {
+  return static_cast<float>(std::clamp(8 / (static_cast<double>(veils) + 1), 0.004, 0.2));
+}
+
+void add_skeleton(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
+                  const std::vector<std::string>& kinds, const ViewOptions& options) {
+  Drawing marks;
+  const auto draw_ev = [&](Drawing& d, std::span<const int> arcs) {
+    add_arcs(d, scene, skeleton, arcs, opacity_of(arcs.size()));
+  };
+  const auto draw_eee = [&](Drawing& d, std::span<const int> arcs) {
+    for (const int i : arcs) {
+      add_eee_arc(d, scene, skeleton.eee_arcs[i], opacity_of(arcs.size()));
+    }
+  };
+  const auto draw_nodes = [&](Drawing& d, std::span<const int> nodes) {
+    const double crowd = static_cast<double>(nodes.size());
+    add_nodes(d, skeleton, nodes,
+              static_cast<float>(std::clamp(300 / (crowd + 1), 0.4, 0.9)),
+              crowd > 500 ? 1.2F : 1.8F);
+  };
+  draw_ev(marks, chosen(skeleton.arcs, 1500, kinds, options, draw_ev));
+  draw_eee(marks, chosen(skeleton.eee_arcs, 1500, kinds, options, draw_eee));
+  draw_nodes(marks, chosen(skeleton.nodes, 4000, kinds, options, draw_nodes));
+  add_marks(drawing, std::move(marks), options);
+}
+
+/// Those of a VTK file.
+void add_file_marks(Drawing& drawing, const Shown& shown, const ViewOptions& options) {
+  Drawing all{{}, shown.veils, shown.strokes, {}};
+  if (options.box) all = clipped(all, *options.box);
+  const std::vector<int> veils = evenly_spread(all.veils.size(), kDrawnVeils);
+  for (const int i : veils) {
+    VeilTriangle veil = all.veils[i];
+    veil.opacity = static_cast<float>(
+        std::clamp(8 / (static_cast<double>(veils.size()) + 1), 0.002, 0.2));
+    drawing.veils.push_back(veil);
+  }
+  const double strokes = static_cast<double>(all.strokes.size());
+  for (Stroke stroke : all.strokes) {
+    stroke.opacity = static_cast<float>(std::clamp(300 / (strokes + 1), 0.05, 0.9));
+    stroke.hidden_opacity = 0.12F * stroke.opacity;
+    drawing.strokes.push_back(stroke);
+  }
+}
+
+void check_kinds(const std::vector<std::string>& kinds, const Shown& shown) {
+  if (!kinds.empty() && !shown.skeleton) {
+    throw UsageError("--kinds: only a saved skeleton (.json) has kinds");
+  }
+  const std::vector<std::string> names = kind_names();
+  for (const std::string& kind : kinds) {
+    if (std::ranges::find(names, kind) != names.end()) continue;
+    throw UsageError(
+        fmt::format("--kinds: '{}' is none of {}", kind, fmt::join(names, ", ")));
+  }
+}
+
 void write_picture(const ViewCommandOptions& options, const Shown& shown) {
-  ViewOptions view_options;
-  view_options.width = options.size[0];
-  view_options.height = options.size[1];
-  if (!options.up.empty()) view_options.up_axis = options.up[0] - 'x';
+  check_kinds(options.kinds, shown);
+  const ViewOptions view_options = view_options_of(options, shown);
   SceneView view = shown.scene ? view_scene(*shown.scene, view_options)
                                : view_marks(shown.veils, shown.strokes, view_options);
   if (shown.skeleton) {
-    const Skeleton& skeleton = *shown.skeleton;
-    const std::vector<int> arcs = evenly_spread(skeleton.arcs.size(), 1500);
-    add_arcs(view.drawing, *shown.scene, skeleton, arcs,
-             static_cast<float>(std::clamp(8 / (arcs.size() + 1.0), 0.004, 0.2)));
-    const std::vector<int> eee = evenly_spread(skeleton.eee_arcs.size(), 1500);
-    const auto opacity =
-        static_cast<float>(std::clamp(8 / (eee.size() + 1.0), 0.004, 0.2));
-    for (const int i : eee) {
-      add_eee_arc(view.drawing, *shown.scene, skeleton.eee_arcs[i], opacity);
-    }
-    add_nodes(view.drawing, skeleton, evenly_spread(skeleton.nodes.size(), 4000), 0.4F,
-              1.2F);
+    add_skeleton(view.drawing, *shown.scene, *shown.skeleton, options.kinds,
+                 view_options);
   }
-  // Many marks are drawn fainter, so that they stay readable, and a part stands for all.
-  const std::vector<int> veils = evenly_spread(shown.veils.size(), kDrawnVeils);
-  for (const int i : veils) {
-    VeilTriangle veil = shown.veils[i];
-    veil.opacity = static_cast<float>(
-        std::clamp(8 / (static_cast<double>(veils.size()) + 1), 0.002, 0.2));
-    view.drawing.veils.push_back(veil);
-  }
-  const double strokes = static_cast<double>(shown.strokes.size());
-  for (Stroke stroke : shown.strokes) {
-    stroke.opacity = static_cast<float>(std::clamp(300 / (strokes + 1), 0.05, 0.9));
-    stroke.hidden_opacity = 0.12F * stroke.opacity;
-    view.drawing.strokes.push_back(stroke);
+  add_file_marks(view.drawing, shown, view_options);
+  if (view_options.box && is_empty(view.drawing)) {
+    const auto [low, high] = bounds_of(shown);
+    throw UsageError(fmt::format(
+        "--box: nothing is inside; what there is to show spans {},{},{},{},{},{}",
+        low.x(), low.y(), low.z(), high.x(), high.y(), high.z()));
   }
   PictureOptions picture;
   picture.width = options.size[0];
@@ -144,11 +257,12 @@ Command add_view_command(CLI::App& app) {
                    "a folder of analyse or --vtk, a .vtm or .vtp of ours, a saved "
                    "skeleton (.json) or a mesh file")
       ->required();
-  command
-      ->add_option("--png", options->png,
-                   "write a picture instead of opening a window; of arcs, at most "
-                   "60,000 triangles, evenly chosen")
-      ->type_name("FILE");
+  CLI::Option* png =
+      command
+          ->add_option("--png", options->png,
+                       "write a picture instead of opening a window; of arcs, at most "
+                       "60,000 triangles, evenly chosen")
+          ->type_name("FILE");
   command
       ->add_option("--up", options->up,
                    "the axis that points up in the picture (default: guessed)")
@@ -161,6 +275,44 @@ Command add_view_command(CLI::App& app) {
       ->delimiter(',')
       ->expected(2)
       ->check(CLI::Range(16, 16384));
+  command
+      ->add_option(
+          "--box", options->box,
+          "a picture of this box only: x0,y0,z0,x1,y1,z1 in scene units, smaller "
+          "corner first; everything is cut at its faces (solids show a dark "
+          "cut), and the picture frames it; a room without its ceiling is a box "
+          "that ends just below it (default: everything)")
+      ->type_name("BOX")
+      ->delimiter(',')
+      ->expected(6)
+      ->needs(png);
+  command
+      ->add_option("--kinds", options->kinds,
+                   "of a saved skeleton, draw only arcs and nodes of these kinds, named "
+                   "as `sightline skeleton` counts them: EV,EV_self,EEE,VV,EEEE,... "
+                   "(default: all)")
+      ->type_name("KIND,...")
+      ->delimiter(',')
+      ->needs(png);
+  CLI::Option* eye =
+      command
+          ->add_option("--eye", options->eye,
+                       "take the picture from this point, x,y,z in scene units, outside "
+                       "or inside of the scene; nothing is left away then, and the angle "
+                       "is what just holds the box or the scene, 69 degrees at most "
+                       "(default: from where most is seen)")
+          ->type_name("POINT")
+          ->delimiter(',')
+          ->expected(3)
+          ->needs(png);
+  command
+      ->add_option("--look-at", options->look_at,
+                   "the point x,y,z in the middle of the picture of --eye (default: the "
+                   "middle of the box or of the scene)")
+      ->type_name("POINT")
+      ->delimiter(',')
+      ->expected(3)
+      ->needs(eye);
   return [options] { return run(*options); };
 }
 

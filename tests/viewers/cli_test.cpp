@@ -381,6 +381,121 @@ TEST_F(Cli, SavedSkeletonCanBeViewed) {
   EXPECT_EQ(kept.at("list").at("arcs").back().at("kind"), "EEE");
 }
 
+/// Pictures of `sightline view`, small ones.
+class Pictures : public Cli {
+ protected:
+  std::string picture(const std::string& what, std::vector<std::string> options) {
+    const fs::path png = folder_ / "picture.png";
+    options.insert(options.begin(),
+                   {"view", what, "--png", png.string(), "--size", "200,150"});
+    const Run r = run(options);
+    EXPECT_EQ(r.status, 0) << r.err;
+    std::string bytes = contents(png);
+    EXPECT_EQ(bytes.substr(1, 3), "PNG");
+    fs::remove(png);
+    return bytes;
+  }
+
+  void expect_view_refused(const std::string& what, std::vector<std::string> options,
+                           const std::string& mentioned) {
+    options.insert(options.begin(),
+                   {"view", what, "--png", (folder_ / "picture.png").string()});
+    expect_refused(options, mentioned);
+  }
+
+  /// A scene of unit cubes with these least corners.
+  std::string cubes(const std::vector<std::array<int, 3>>& corners) {
+    const fs::path path = folder_ / "io" / "cubes.obj";
+    fs::create_directories(path.parent_path());
+    std::ofstream stream(path);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      stream << "o cube" << k << "\n";
+      for (int i = 0; i < 8; ++i) {
+        stream << "v " << corners[k][0] + (i & 1) << " " << corners[k][1] + (i >> 1 & 1)
+               << " " << corners[k][2] + (i >> 2) << "\n";
+      }
+      for (const auto& face : {std::array{0, 2, 3, 1},
+                               {4, 5, 7, 6},
+                               {0, 1, 5, 4},
+                               {2, 6, 7, 3},
+                               {0, 4, 6, 2},
+                               {1, 3, 7, 5}}) {
+        stream << "f";
+        for (const int i : face) stream << " " << 8 * k + i + 1;
+        stream << "\n";
+      }
+    }
+    return path.string();
+  }
+};
+
+TEST_F(Pictures, WhatIsOutsideOfTheBoxMakesNoDifference) {
+  const std::vector<std::string> box{"--box", "-0.5,-0.5,-0.5,1.5,0.5,1.5"};
+  const std::string one = picture(cubes({{0, 0, 0}}), box);
+  EXPECT_EQ(picture(cubes({{0, 0, 0}, {3, 0, 0}, {0, 2, -4}}), box), one);
+  // The cube is cut at y = 0.5, which shows.
+  EXPECT_NE(picture(cubes({{0, 0, 0}}), {"--box", "-0.5,-0.5,-0.5,1.5,1.5,1.5"}), one);
+}
+
+TEST_F(Pictures, ArcsAreCutAtTheBoxNotDropped) {
+  const std::string scene = cubes({{0, 0, 0}, {3, 0, 0}});
+  const fs::path saved = folder_ / "io" / "skeleton.json";
+  ASSERT_EQ(run({"skeleton", scene, "-o", saved.string()}).status, 0);
+  // Between the cubes, where only lines from one to the other are.
+  const std::string box = "1.5,0,0,2.5,1,1";
+  expect_view_refused(scene, {"--box", box}, "--box");
+  const std::string all = picture(saved.string(), {"--box", box});
+  const std::string ev = picture(saved.string(), {"--box", box, "--kinds", "EV"});
+  EXPECT_NE(all, ev);
+  EXPECT_NE(ev, picture(saved.string(), {"--box", box, "--kinds", "VV"}));
+  // Two cubes have no line through four edges of four objects.
+  expect_view_refused(saved.string(), {"--box", box, "--kinds", "EEEE"},
+                      "--box: nothing");
+  // The same from the VTK files, which hold triangles and strokes.
+  const fs::path vtk = folder_ / "io" / "vtk";
+  ASSERT_EQ(run({"skeleton", scene, "--vtk", vtk.string()}).status, 0);
+  EXPECT_NE(picture(vtk.string(), {"--box", box}), all);
+  expect_view_refused(vtk.string(), {"--box", "1.5,2,0,2.5,3,1"}, "--box: nothing");
+}
+
+TEST_F(Pictures, FromTheChosenEye) {
+  const std::string from_left = picture(kRoom, {"--eye", "-10,4,2"});
+  EXPECT_EQ(picture(kRoom, {"--eye", "-10,4,2", "--look-at", "3,1.375,2.25"}), from_left);
+  EXPECT_NE(picture(kRoom, {"--eye", "-10,4,2", "--look-at", "3,1,2.25"}), from_left);
+  EXPECT_NE(picture(kRoom, {"--eye", "10,4,2"}), from_left);
+  // Inside, straight from above, and on a wall.
+  for (const char* eye : {"3,1.5,2", "3,20,2.25", "0,1,2"}) {
+    EXPECT_NE(picture(kRoom, {"--eye", eye}), from_left);
+  }
+  EXPECT_NE(picture(kRoom, {"--eye", "3,1.5,2", "--box", "1,0,1,5,2,4"}), from_left);
+}
+
+TEST_F(Pictures, BadBoxesEyesAndKindsAreNamed) {
+  expect_view_refused(kRoom, {"--box", "0,0,0,1,1"}, "--box");
+  expect_view_refused(kRoom, {"--box", "1,0,0,0,1,1"}, "--box: the first corner");
+  expect_view_refused(kRoom, {"--box", "0,0,0,1,1,inf"}, "--box: not six finite");
+  expect_view_refused(kRoom, {"--box", "0,0,0,1,nan,1"}, "--box: not six finite");
+  expect_view_refused(kRoom, {"--box", "0,0,0,1,0,1"}, "--box: has no extent");
+  expect_view_refused(kRoom, {"--box", "50,50,50,60,60,60"},
+                      "spans -0.25,-0.25,-0.25,6.25,3,4.75");
+  expect_view_refused(kRoom, {"--eye", "1,2"}, "--eye");
+  expect_view_refused(kRoom, {"--eye", "1,2,nan"}, "--eye: not a finite point");
+  expect_view_refused(kRoom, {"--eye", "1,2,3", "--look-at", "1,2,3"},
+                      "--eye: is the same point as --look-at");
+  expect_view_refused(kRoom, {"--eye", "1,2,3", "--look-at", "1,2,-inf"},
+                      "--look-at: not a finite point");
+  expect_view_refused(kRoom, {"--eye", "1e300,0,0"}, "--eye: is too far away");
+  expect_view_refused(kRoom, {"--eye", "3,1.375,2.25"}, "say where to look with");
+  expect_view_refused(kRoom, {"--look-at", "1,2,3"}, "--eye");
+  expect_view_refused(kRoom, {"--kinds", "EV"}, "--kinds: only a saved skeleton");
+  expect_refused({"view", kRoom, "--box", "0,0,0,1,1,1"}, "--png");
+  expect_refused({"view", kRoom, "--eye", "0,0,9"}, "--png");
+  const fs::path saved = folder_ / "io" / "skeleton.json";
+  ASSERT_EQ(run({"skeleton", kCornell, "-o", saved.string()}).status, 0);
+  expect_view_refused(saved.string(), {"--kinds", "EV,EVV"},
+                      "--kinds: 'EVV' is none of EV, EEE");
+}
+
 TEST_F(Cli, QueriesOfASavedSkeletonAreThoseOfANewOne) {
   const fs::path saved = folder_ / "skeleton.json";
   ASSERT_EQ(run({"skeleton", kCornell, "-o", saved.string()}).status, 0);

@@ -4,10 +4,15 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "viewers/clip.h"
 #include "viewers/page.h"
 
 namespace sightline::viewers {
 namespace {
+
+using Box = std::array<Point, 2>;
 
 constexpr Colour kRed{1, 0, 0}, kGreen{0, 1, 0}, kBlue{0, 0, 1};
 
@@ -96,6 +101,85 @@ TEST(Picture, StrokesShowFaintlyBehindFacesWhenAsked) {
   const auto faint = centre(render(drawing, from_above(), plain()));
   EXPECT_EQ(hidden[0], hidden[2]);
   EXPECT_LT(faint[0], faint[2]);
+}
+
+/// The faces of the cube [-1, 1]^3, blue, closed.
+Drawing cube() {
+  Drawing drawing;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const int side : {-1, 1}) {
+      std::array<Point, 4> p;
+      for (int i = 0; i < 4; ++i) {
+        p[i][axis] = side;
+        p[i][(axis + 1) % 3] = side * (i == 1 || i == 2 ? 1 : -1);
+        p[i][(axis + 2) % 3] = i >= 2 ? 1 : -1;
+      }
+      drawing.triangles.push_back({{p[0], p[1], p[2]}, kBlue, true, axis, true});
+      drawing.triangles.push_back({{p[0], p[2], p[3]}, kBlue, true, axis, true});
+    }
+  }
+  return drawing;
+}
+
+const Box kLowerHalf{Point(-3, -3, -3), Point(3, 3, 0.25)};
+
+TEST(Cut, ASolidCutOpenShowsTheCut) {
+  const Drawing half = clipped(cube(), kLowerHalf);
+  ASSERT_TRUE(half.cut);
+  const Colour& c = half.cut->colour;
+  const auto seen = centre(render(half, from_above(), plain()));
+  EXPECT_NEAR(seen[0], 255 * c.red, 1);
+  EXPECT_NEAR(seen[2], 255 * c.blue, 1);
+  EXPECT_EQ(visible_ids(half, from_above(), 64, 64)[64 * 32 + 32], -1);
+  // As far as the cube reaches and no farther: 2 of the 7.3 units that the picture shows.
+  Drawing filled = half;
+  filled.cut->colour = kGreen;
+  const Image image = render(filled, from_above(), plain());
+  int green = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+    green += image.rgb[i] == 0 && image.rgb[i + 1] == 255;
+  }
+  const double side = 64 * 2 / (2 * std::tan(0.35) * 9.75);
+  EXPECT_NEAR(green, side * side, 2 * side);
+}
+
+TEST(Cut, HidesWhatIsInsideOfTheSolid) {
+  // A sheet within the cube, below the cut.
+  Drawing both = cube();
+  both.triangles.push_back(triangle_at(-0.5, kRed, 9));
+  Drawing half = clipped(both, kLowerHalf);
+  half.cut->colour = kGreen;
+  EXPECT_EQ(centre(render(half, from_above(), plain()))[1], 255);
+  EXPECT_EQ(visible_ids(half, from_above(), 64, 64)[64 * 32 + 32], -1);
+}
+
+TEST(Cut, SheetsAndWholeSolidsHaveNone) {
+  Drawing sheets = cube();
+  for (PaintedTriangle& t : sheets.triangles) t.solid = false;
+  Drawing half = clipped(sheets, kLowerHalf);
+  half.cut->colour = kGreen;
+  EXPECT_NE(centre(render(half, from_above(), plain()))[1], 255);
+  Drawing whole = clipped(cube(), {Point(-3, -3, -3), Point(3, 3, 3)});
+  whole.cut->colour = kGreen;
+  EXPECT_GT(centre(render(whole, from_above(), plain()))[2], 100);
+}
+
+TEST(Cut, ASolidThatEndsInTheBoxIsNotCutThere) {
+  // Its top is the box's top; then, as a ceiling, its bottom is.
+  Drawing below = clipped(cube(), {Point(-3, -3, -3), Point(3, 3, 1)});
+  below.cut->colour = kGreen;
+  const auto top = centre(render(below, from_above(), plain()));
+  EXPECT_EQ(top[1], 0);
+  EXPECT_GT(top[2], 100);
+  Drawing above = clipped(cube(), {Point(-3, -3, -3), Point(3, 3, -1)});
+  above.cut->colour = kGreen;
+  EXPECT_GT(centre(render(above, from_above(), plain()))[0], 200);  // the sky
+}
+
+TEST(Cut, FromWithinTheBoxThereIsNone) {
+  Drawing around = clipped(cube(), {Point(-3, -3, -0.5), Point(3, 3, 20)});
+  around.cut->colour = kGreen;
+  EXPECT_GT(centre(render(around, from_above(), plain()))[2], 100);
 }
 
 TEST(Picture, PngHasItsSignatureAndSize) {
