@@ -190,6 +190,13 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
     return other.hi >= cut.lo && other.lo <= cut.hi && !other.same_as(cut) &&
            curve.compare(other, cut) == Sign::Zero;
   };
+  // Where edges of touching solids cross, a line meets both at one point.
+  if (cut.kind == CurveCutKind::Crossing) {
+    for (const int ridge :
+         {outer.first, middle, outer.last, carriers_.ridge[cut.feature]}) {
+      if (ridge >= 0 && g_.ridges()[ridge].touched) return true;
+    }
+  }
   for (const Constraint& c : constraints_) {
     if (c.values.constant() && c.values.sign0 == Sign::Zero) return true;
     if (cut.kind == CurveCutKind::Start ? c.zero0

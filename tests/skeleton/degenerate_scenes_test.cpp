@@ -97,6 +97,56 @@ void add_bar(PolygonSoup& soup, const Point& from, const Point& to) {
   soup.groups.push_back(group);
 }
 
+// With the solids in another order.
+PolygonSoup shuffled(const PolygonSoup& soup, std::uint64_t seed) {
+  testing::Random random(seed);
+  std::vector<PolygonSoup::Group> groups = soup.groups;
+  random.shuffle(groups);
+  PolygonSoup out = soup;
+  out.polygons.clear();
+  out.groups.clear();
+  for (PolygonSoup::Group& group : groups) {
+    for (int& f : group.faces) {
+      out.polygons.push_back(soup.polygons[f]);
+      f = static_cast<int>(out.polygons.size()) - 1;
+    }
+    out.groups.push_back(group);
+  }
+  return out;
+}
+
+// Solids that share walls, edges and corners.  Where edges of two of them cross, lines
+// through the crossing were two nodes or one, as the order had it.
+TEST(DegenerateScenes, TouchingSolidsHaveTheSameNodesInAnyOrder) {
+  std::vector<PolygonSoup> soups;
+  for (const std::uint64_t seed : {0, 4}) {
+    soups.push_back(testing::grid_city(seed, 48, {.may_touch = true}));
+  }
+  for (const std::uint64_t seed : {3, 7}) {
+    soups.push_back(testing::random_boxes(
+        seed, 10, {.grid = 8, .may_touch = true, .min_size = 1, .max_size = 4}));
+  }
+  for (const PolygonSoup& soup : soups) {
+    for (const EventMode events : {EventMode::Solid, EventMode::Polygon}) {
+      SCOPED_TRACE(::testing::Message()
+                   << soup.source
+                   << (events == EventMode::Solid ? "" : ", polygon mode"));
+      SkeletonRequest request;
+      request.events = events;
+      std::map<NodeKind, int> first;
+      for (const std::uint64_t order : {1, 2, 3, 4}) {
+        std::map<NodeKind, int> counts;
+        const Scene scene(order == 1 ? soup : shuffled(soup, order));
+        for (const SkeletonNode& node : build_skeleton(scene, request).nodes) {
+          ++counts[node.kind];
+        }
+        if (order == 1) first = counts;
+        EXPECT_EQ(counts, first) << "order " << order;
+      }
+    }
+  }
+}
+
 // Four edges of one ruled surface: the lines of its other family meet all four.  They are
 // an arc of each triple, once each, and end together.
 TEST(DegenerateScenes, BarsOnARegulus) {
