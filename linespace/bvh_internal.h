@@ -38,32 +38,32 @@ class Bvh {
   /// visit(item) for items.
   template <class Enter, class Visit>
   void traverse(Enter&& enter, Visit&& visit) const {
-    if (nodes_.empty()) return;
-    std::uint32_t stack[128];
-    int top = 0;
-    stack[top++] = 0;
-    while (top > 0) {
-      const Node& n = nodes_[stack[--top]];
-      if (!enter(n.box)) continue;
-      if (n.count > 0) {
-        for (std::uint32_t i = 0; i < n.count; ++i) visit(items_[n.first + i]);
-      } else {
-        stack[top++] = n.first + 1;
-        stack[top++] = n.first;
-      }
-    }
+    walk([](const Box&, const Box&) { return true; }, enter,
+         [&](std::uint32_t item) {
+           visit(item);
+           return false;
+         });
   }
 
   /// The same until visit(item) -> bool returns true, which is returned: of two nodes the
   /// one first whose box has its middle less far along `toward`.
   template <class Enter, class Visit>
   bool any_towards(const Point& toward, Enter&& enter, Visit&& visit) const {
-    if (nodes_.empty()) return false;
     const auto depth = [&](const Box& box) {
       double d = 0;
       for (int i = 0; i < 3; ++i) d += toward[i] * (box.min[i] + box.max[i]);
       return d;
     };
+    return walk(
+        [&](const Box& left, const Box& right) { return depth(left) <= depth(right); },
+        enter, visit);
+  }
+
+ private:
+  // Until a visit returns true; of two children the left one first if left_first(boxes).
+  template <class LeftFirst, class Enter, class Visit>
+  bool walk(LeftFirst&& left_first, Enter&& enter, Visit&& visit) const {
+    if (nodes_.empty()) return false;
     std::uint32_t stack[128];
     int top = 0;
     stack[top++] = 0;
@@ -74,15 +74,13 @@ class Bvh {
         if (visit(items_[n.first + i])) return true;
       }
       if (n.count > 0) continue;
-      const bool left_first =
-          depth(nodes_[n.first].box) <= depth(nodes_[n.first + 1].box);
-      stack[top++] = n.first + (left_first ? 1 : 0);
-      stack[top++] = n.first + (left_first ? 0 : 1);
+      const bool left = left_first(nodes_[n.first].box, nodes_[n.first + 1].box);
+      stack[top++] = n.first + (left ? 1 : 0);
+      stack[top++] = n.first + (left ? 0 : 1);
     }
     return false;
   }
 
- private:
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> items_;
 };

@@ -1,4 +1,5 @@
-// The blockers on the way to a group of edges, listed once for all of the group.
+// The blockers (generators_internal.h) between a viewpoint or an edge and a group of
+// edges, listed once for all of the group.
 
 #pragma once
 
@@ -18,14 +19,16 @@ class BlockerList {
   /// Another group: what was listed is forgotten.
   void forget() { listed_ = false; }
   [[nodiscard]] bool listed() const { return listed_; }
-  /// Lists the blockers whose boxes may meet the hull, those first that are nearer along
-  /// `toward`; when they are too many to be worth it, some.
-  void list(const Shaft& hull, const Point& toward);
+  /// Lists the blockers whose boxes may meet the hull of the segment p0 p1, each end off
+  /// by `pad`, and the group's box, from p0 outwards; when they are too many to be worth
+  /// it, some.
+  void list(const Point& p0, const Point& p1, const Box& group,
+            const Shaft::Pad& pad = {});
   /// Those listed.
   [[nodiscard]] std::size_t size() const { return list_.size(); }
 
-  /// visit(blocker) -> bool for each whose box may meet a hull within the first one,
-  /// until one returns true.  Requires listed().
+  /// visit(blocker) -> bool for each whose box may meet a hull within that of list(),
+  /// until one returns true, which is returned.  Requires listed().
   template <class Visit>
   bool any_of(const Shaft& hull, Visit&& visit) const {
     if (too_many_) {

@@ -7,12 +7,6 @@
 #include "skeleton/occluder_shadow_internal.h"
 
 namespace sightline::internal {
-namespace {
-
-// So many edges share lists of blockers: speed only.
-constexpr int kGroup = 32;
-
-}  // namespace
 
 EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
                      const EeePart& part)
@@ -21,7 +15,6 @@ EdgePairs::EdgePairs(const Generators& generators, const Carriers& carriers,
       carriers_(carriers),
       selection_(part),
       view_(generators),
-      groups_(ridge_groups(generators.ridge_tree(), kGroup)),
       face_stamp_(scene_.faces().size(), 0),
       face_planes_(scene_.faces().size()),
       middle_stamp_(generators.ridges().size(), 0),
@@ -48,12 +41,12 @@ void EdgePairs::visit(int i, const std::function<bool()>& stop,
   while (top > 0) {
     const auto [at, from] = stack[--top];
     const Bvh::Node& node = tree.node(at);
-    if (groups_[at].highest <= i) continue;
+    if (g_.ridge_group(at).highest <= i) continue;
     if (!selection_.may_pair(i, view_.box(), at, node.box)) continue;
     if (view_.never_touched_from(node.box) || view_.hides(node.box)) continue;
     open_ = view_.open(from, node.box);
     if (from != 0 && open_ == 0) continue;
-    if (groups_[at].begins) view_.look_at(node.box);
+    if (g_.ridge_group(at).begins) view_.look_at(node.box);
     if (node.count == 0) {
       stack[top++] = {node.first + 1, open_};
       stack[top++] = {node.first, open_};

@@ -16,7 +16,6 @@
 #include "skeleton/line_probe_internal.h"
 #include "skeleton/pair_cells_internal.h"
 #include "skeleton/part_internal.h"
-#include "skeleton/ridge_groups_internal.h"
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
 
@@ -117,8 +116,7 @@ class EdgePairs {
   const Carriers& carriers_;
   const EeePart& selection_;
 
-  EdgeView view_;  // from the first edge at hand
-  std::vector<RidgeGroup> groups_;
+  EdgeView view_;              // from the first edge at hand
   EdgeView::Pieces open_ = 0;  // of the first edge, for the group at hand
 
   // The pair at hand.

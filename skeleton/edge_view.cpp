@@ -86,11 +86,7 @@ bool EdgeView::never_touched_from(const Box& box) const {
 
 void EdgeView::list_blockers(PieceView& view) const {
   const EdgePiece& piece = view.piece;
-  const Point middle{0.5 * (group_.min[0] + group_.max[0]),
-                     0.5 * (group_.min[1] + group_.max[1]),
-                     0.5 * (group_.min[2] + group_.max[2])};
-  view.between.list(Shaft(piece.point(0), piece.point(1), group_, piece.pad()),
-                    middle - piece.point(0));
+  view.between.list(piece.point(0), piece.point(1), group_, piece.pad());
 }
 
 // A blocker whose box the hull may meet.

@@ -227,15 +227,13 @@ void Generators::find_aligned() {
 }
 
 void Generators::find_object_boxes() {
+  std::vector<Point> points;
   for (const Object& object : scene_->objects()) {
-    Box box = object.faces.empty() ? Box{} : face_boxes_[object.faces.front()];
+    points.clear();
     for (const int f : object.faces) {
-      for (int i = 0; i < 3; ++i) {
-        box.min[i] = std::min(box.min[i], face_boxes_[f].min[i]);
-        box.max[i] = std::max(box.max[i], face_boxes_[f].max[i]);
-      }
+      for (const int p : scene_->face_points(f)) points.push_back(scene_->point(p));
     }
-    object_boxes_.push_back(box);
+    object_boxes_.push_back(points.empty() ? Box{} : box_of(points));
   }
 }
 
@@ -265,15 +263,11 @@ void Generators::find_inside() {
   for (std::size_t o = 0; o < s.objects().size(); ++o) {
     const Object& object = s.objects()[o];
     if (!object.closed) continue;
-    std::vector<Point> points;
-    for (const int f : object.faces) {
-      for (const int p : s.face_points(f)) points.push_back(s.point(p));
-    }
-    if (points.empty()) continue;
-    const Box box = box_of(points);
+    if (object.faces.empty()) continue;
+    const Box& box = object_boxes_[o];
     double volume = 0;
     if (!convex_[o]) {
-      const Point origin = points[0];
+      const Point& origin = s.point(s.face_points(object.faces.front())[0]);
       for (const int f : object.faces) {
         const auto c = s.face_points(f);
         for (std::size_t k = 1; k + 1 < c.size(); ++k) {

@@ -13,6 +13,7 @@
 #include "linespace/contact_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
+#include "skeleton/ridge_groups_internal.h"
 #include "skeleton/ridge_sides_internal.h"
 #include "skeleton/skeleton.h"
 
@@ -152,6 +153,10 @@ class Generators {
   [[nodiscard]] const Bvh& blocker_tree() const { return blocker_tree_; }
   /// Over ridges(); leaves hold ridge numbers.
   [[nodiscard]] const Bvh& ridge_tree() const { return ridge_tree_; }
+  /// Of this node of ridge_tree().
+  [[nodiscard]] const RidgeGroup& ridge_group(std::size_t node) const {
+    return ridge_groups_[node];
+  }
   /// Of the ridge at this position in ridge_tree().items().
   [[nodiscard]] const RidgeSides& ridge_sides(std::size_t position) const {
     return ridge_sides_[position];
@@ -186,6 +191,7 @@ class Generators {
   std::vector<PlaneSide> face_planes_;
   std::vector<Ridge> ridges_;
   std::vector<RidgeSides> ridge_sides_;
+  std::vector<RidgeGroup> ridge_groups_;
   std::vector<std::int32_t> ridge_of_edge_;
   std::vector<Star> stars_;
   std::vector<std::int32_t> star_of_point_;

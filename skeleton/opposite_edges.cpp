@@ -19,12 +19,13 @@ Chord chord_of(const Point& at, const std::array<Point, 2>& edge) {
 constexpr double kChordError = 16 * kUnitRoundoff;
 
 // Around all directions to points of the edge: the chord's points made longer, by 1 / |m|
-// at most, with m its middle.
+// at most, with m its middle.  Each coordinate of m is off by kChordError and a rounding,
+// so |m| by sqrt(3) times that and its own roundings: less than 3 kChordError in all.
 Box box_of_directions(const Chord& chord) {
   Box box = box_of(chord);
-  const double shortest = 0.5 * (chord[0] + chord[1]).norm() - kChordError;
-  const double longer = shortest > 1e-3 ? (1 + kChordError) / shortest
-                                        : std::numeric_limits<double>::infinity();
+  const double shortest = 0.5 * (chord[0] + chord[1]).norm() - 3 * kChordError;
+  const double longer = shortest > 0 ? (1 + kChordError) / shortest
+                                     : std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     box.min[i] -= kChordError;
     box.max[i] += kChordError;

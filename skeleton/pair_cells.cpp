@@ -30,8 +30,8 @@ struct Signs {
   }
 };
 
-// Positions are exact, so each value is off by three roundings beside
-// the error of the ends.
+// Positions are exact, so each value is off by three roundings beside the error of the
+// ends.
 Signs<2> signs(const PairCells::Linear& l, double x0, double x1) {
   const double d = l.at1 - l.at0;
   const double error = l.error + 4 * kU * (std::abs(l.at0) + std::abs(l.at1));

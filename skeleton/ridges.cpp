@@ -253,6 +253,8 @@ void Generators::find_ridges() {
     if (ridge_of_edge_[i] == static_cast<int>(ridges_.size())) ridge_of_edge_[i] = -1;
   }
   ridge_tree_ = Bvh(boxes);
+  constexpr int kGroup = 32;  // speed only
+  ridge_groups_ = ridge_groups(ridge_tree_, kGroup);
   for (const std::uint32_t i : ridge_tree_.items()) {
     ridge_sides_.emplace_back(s, ridges_[i]);
   }

@@ -15,7 +15,6 @@
 #include "skeleton/line_probe_internal.h"
 #include "skeleton/occluders_internal.h"
 #include "skeleton/part_internal.h"
-#include "skeleton/ridge_groups_internal.h"
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
@@ -123,7 +122,6 @@ class VertexViewer {
   Occluders occluders_;
   std::vector<BoundedPlane> star_planes_;
   LineProbe probe_;
-  std::vector<RidgeGroup> groups_;
   Box group_;  // at hand
   BlockerList between_;
   FacingFaces facing_;

@@ -137,8 +137,8 @@ std::vector<int> chosen(const std::vector<Item>& items, std::size_t limit,
 }
 
 /// Many marks are drawn fainter, so that they stay readable.
-float opacity_of(std::size_t veils) {
-  return static_cast<float>(std::clamp(8 / (static_cast<double>(veils) + 1), 0.004, 0.2));
+float opacity_of(std::size_t veils, double least = 0.004) {
+  return static_cast<float>(std::clamp(8 / (static_cast<double>(veils) + 1), least, 0.2));
 }
 
 void add_skeleton(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
@@ -171,8 +171,7 @@ void add_file_marks(Drawing& drawing, const Shown& shown, const ViewOptions& opt
   const std::vector<int> veils = evenly_spread(all.veils.size(), kDrawnVeils);
   for (const int i : veils) {
     VeilTriangle veil = all.veils[i];
-    veil.opacity = static_cast<float>(
-        std::clamp(8 / (static_cast<double>(veils.size()) + 1), 0.002, 0.2));
+    veil.opacity = opacity_of(veils.size(), 0.002);
     drawing.veils.push_back(veil);
   }
   const double strokes = static_cast<double>(all.strokes.size());

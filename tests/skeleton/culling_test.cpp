@@ -146,7 +146,7 @@ TEST(BlockerList, TellsAllThatMayBeInTheWay) {
       const Box group = box_of(corners);
       list.forget();
       EXPECT_FALSE(list.listed());
-      list.list(Shaft(at, at, group), corners[0] - at);
+      list.list(at, at, group);
       EXPECT_TRUE(list.listed());
       too_many |= list.size() > 512;
       Point e0, e1;

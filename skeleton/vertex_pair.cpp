@@ -1,0 +1,439 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "skeleton/vertex_pair_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+// A corner of the face off the line through p and q.
+int off_line_point(const Scene& scene, int face, const Point& p, const Point& q) {
+  for (const int c : scene.face_points(face)) {
+    if (!collinear(p, q, scene.point(c))) return c;
+  }
+  return scene.face_points(face)[0];  // not reached: faces have area
+}
+
+bool contains(std::span<const std::int32_t> sorted, std::int32_t x) {
+  return std::binary_search(sorted.begin(), sorted.end(), x);
+}
+
+}  // namespace
+
+// All that may hide some of the edge, from front to back; true once all of it is hidden.
+bool VertexViewer::add_blockers(Pair& pair) {
+  if (!between_.listed()) between_.list(at_, at_, group_);
+  const auto hides_all = [&](int face) {
+    add_blocker(pair, face);
+    if (!pair.closed.covers_all()) return false;
+    occluders_.remember(face);
+    return true;
+  };
+  return between_.any_of(pair.triangle, [&](std::int32_t blocker) {
+    pair.blockers.push_back(blocker);
+    if (blocker < 0) return hides_all(~blocker);
+    // A line that supports a convex solid does not meet it elsewhere.
+    if (blocker == pair.edge->object || contains(own_objects_, blocker)) return false;
+    const auto facing = facing_.of(blocker);
+    return std::any_of(facing.begin(), facing.end(), [&](int face) {
+      return pair.triangle.may_meet(g_.face_box(face)) && hides_all(face);
+    });
+  });
+}
+
+void VertexViewer::list_faces(Pair& pair) const {
+  if (pair.listed) return;
+  pair.listed = true;
+  const auto add = [&](int face) {
+    if (pair.triangle.may_meet(g_.face_box(face))) pair.faces.push_back(face);
+  };
+  for (const std::int32_t blocker : pair.blockers) {
+    if (blocker < 0) {
+      add(~blocker);
+    } else {
+      for (const int face : scene_.objects()[blocker].faces) add(face);
+    }
+  }
+}
+
+// The face's trace in the plane of viewpoint and edge is a segment; what it hides is the
+// part of the edge within its two ends' directions and behind the face's plane.
+void VertexViewer::add_blocker(Pair& pair, int face) {
+  const Face& f = scene_.faces()[face];
+  if (facet_stamp_[f.facet] == stamp_) return;
+  if (std::find(pair.edge_facets.begin(), pair.edge_facets.end(), f.facet) !=
+      pair.edge_facets.end()) {
+    return;
+  }
+  if (g_.convex_solid(f.object) &&
+      (f.object == pair.edge->object || contains(own_objects_, f.object))) {
+    return;  // a line that supports a convex solid does not meet it elsewhere
+  }
+  const auto corners = scene_.face_points(face);
+  const std::size_t n = corners.size();
+  std::array<Sign, 64> small;
+  std::vector<Sign> large;
+  Sign* signs = small.data();
+  if (n > small.size()) {
+    large.resize(n);
+    signs = large.data();
+  }
+  bool front = false;
+  bool back = false;
+  bool stray = false;  // a corner other than the edge's ends lies in the plane
+  for (std::size_t k = 0; k < n; ++k) {
+    if (corners[k] == pair.r->points[0] || corners[k] == pair.r->points[1]) {
+      signs[k] = Sign::Zero;
+      continue;
+    }
+    signs[k] = pair.plane(scene_.point(corners[k]));
+    front |= signs[k] == Sign::Positive;
+    back |= signs[k] == Sign::Negative;
+    stray |= signs[k] == Sign::Zero;
+  }
+  if (stray) {
+    pair.mild = true;
+    if (front != back && !continues_across(face, {signs, n}) &&
+        !stands_on_ground(pair, face, {signs, n})) {
+      return;  // touches the plane from one side
+    }
+    if (!front && !back) return;
+    // A face with a corner in the plane crosses it there; one whose neighbour across a
+    // side in the plane goes on beyond it hides what this side hides.
+    for (std::size_t k = 0; k < n; ++k) {
+      if (signs[k] == Sign::Zero) signs[k] = front ? Sign::Negative : Sign::Positive;
+    }
+    front = back = true;
+  }
+  if (!front || !back) return;
+  const PlaneSide& face_plane = g_.face_plane(face);
+  const Sign here = face_plane(at_);
+  if (here == Sign::Zero) {
+    pair.mild = true;  // seen edge-on: hides one line at most
+    return;
+  }
+  const BoundedValue value0 = face_plane.value(pair.e0);
+  const BoundedValue value1 = face_plane.value(pair.e1);
+  const Sign there0 = sign_of(value0, face_plane, pair.e0);
+  const Sign there1 = sign_of(value1, face_plane, pair.e1);
+  if (there0 != -here && there1 != -here) return;  // wholly in front of the face
+
+  // The trace's two ends, counter-clockwise around the viewpoint from `from` to `to`.
+  Cut from, to;
+  bool none = false;
+  bool from_behind = false;
+  bool to_behind = false;
+  for (std::size_t k = 0; k < n && !none; ++k) {
+    const std::size_t next = (k + 1) % n;
+    bool rising;  // from back to front: the trace begins here, seen from the face's front
+    int p, q;     // p in front of the plane, q behind
+    if (signs[k] == Sign::Zero) {
+      // The trace ends in an end point of the edge.
+      const Sign before = signs[(k + n - 1) % n];
+      const Sign after = signs[next];
+      if (before == after || before == Sign::Zero || after == Sign::Zero) continue;
+      rising = before == Sign::Negative;
+      const bool begins = rising == (here == Sign::Positive);
+      const bool at_start = corners[k] == pair.r->points[0];
+      const Cut cut = at_start ? start_cut() : end_cut();
+      (begins ? from : to) = cut;
+      none |= begins ? !at_start : at_start;
+      continue;
+    }
+    if (signs[next] == Sign::Zero || signs[next] == signs[k]) continue;
+    rising = signs[k] == Sign::Negative;
+    p = rising ? corners[next] : corners[k];
+    q = rising ? corners[k] : corners[next];
+    const bool begins = rising == (here == Sign::Positive);
+    const PlaneSide side_plane({at_, scene_.point(p), scene_.point(q)});
+    const BoundedValue x0 = side_plane.value(pair.e0);
+    const BoundedValue x1 = side_plane.value(pair.e1);
+    const Sign s0 = sign_of(x0, side_plane, pair.e0);
+    const Sign s1 = sign_of(x1, side_plane, pair.e1);
+    if (s0 == Sign::Zero || s1 == Sign::Zero) {
+      pair.mild = true;
+    }
+    // Negative s0: to the left of the ray to e0; positive s1: to the right of that to e1.
+    if (s0 == Sign::Negative && s1 == Sign::Positive) {
+      const int edge = scene_.edge_of_side(face, static_cast<int>(k));
+      Cut cut =
+          make_cut(CutKind::Side, edge, {point_, std::min(p, q), std::max(p, q)}, x0, x1);
+      if (edge >= 0) {
+        // A side of a face at the viewpoint: its plane is that face's.
+        for (const Edge::Side& s : scene_.edges()[edge].sides) {
+          const int facet = scene_.faces()[s.face].facet;
+          if (facet_stamp_[facet] != stamp_) continue;
+          cut.kind = CutKind::Support;
+          cut.feature = facet;
+        }
+      }
+      pair.keep(cut);
+      (begins ? from : to) = cut;
+    } else if (begins) {
+      from_behind = s0 == Sign::Positive && s1 == Sign::Negative;
+      from = start_cut();
+      none |= !(s0 == Sign::Positive || (s0 == Sign::Zero && s1 == Sign::Positive));
+    } else {
+      to_behind = s0 == Sign::Positive && s1 == Sign::Negative;
+      to = end_cut();
+      none |= !(s1 == Sign::Negative || (s1 == Sign::Zero && s0 == Sign::Negative));
+    }
+  }
+  if (none || (from_behind && to_behind)) return;
+  if (there0 == -here && there1 == -here) {
+    pair.close(from, to);
+    return;
+  }
+  // The plane of the face separates the viewpoint from one part of the edge only.
+  if (there0 == Sign::Zero || there1 == Sign::Zero) {
+    pair.close(from, to);
+    return;
+  }
+  const Cut pierce = pair.keep(
+      make_cut(CutKind::Pierce, f.facet, plane_points(scene_, face), value0, value1));
+  const auto before = [&](const Cut& x, const Cut& y) {
+    return compare(scene_, {pair.e0, pair.e1}, x, y) == Sign::Negative;
+  };
+  if (there0 == -here) {
+    pair.close(from, before(pierce, to) ? pierce : to);
+  } else {
+    pair.close(before(from, pierce) ? pierce : from, to);
+  }
+}
+
+// A side of the face lies in the plane of the pair, all else of the face on one side of
+// it, and the face's neighbour across that side on the other.
+bool VertexViewer::continues_across(int face, std::span<const Sign> signs) const {
+  const auto corners = scene_.face_points(face);
+  const std::size_t n = signs.size();
+  for (std::size_t k = 0; k < n; ++k) {
+    if (signs[k] != Sign::Zero || signs[(k + 1) % n] != Sign::Zero) continue;
+    const int edge = scene_.edge_of_side(face, static_cast<int>(k));
+    if (edge < 0) return true;  // flat: the facet goes on
+    const Scene& s = scene_;
+    const auto& sides = s.edges()[edge].sides;
+    const Point& p = s.point(corners[k]);
+    const Point& q = s.point(corners[(k + 1) % n]);
+    const Point& own = s.point(off_line_point(s, face, p, q));
+    for (const Edge::Side& side : sides) {
+      if (side.face == face || s.faces()[side.face].facet == s.faces()[face].facet)
+        continue;
+      const Point& other = s.point(off_line_point(s, side.face, p, q));
+      if (orient3d(at_, p, q, own) == -orient3d(at_, p, q, other)) return true;
+    }
+  }
+  return false;
+}
+
+// Two faces of different objects (or of one that is not convex) that lie on or touch the
+// plane of the pair from opposite sides, and may touch each other: a line between them
+// may be blocked though neither crosses the plane.
+bool VertexViewer::touching_across(const Pair& pair) const {
+  std::vector<int> above, below;
+  int off_plane = -1;
+  for (const int p : scene_.corners()) {
+    if (pair.plane(scene_.point(p)) == Sign::Zero) continue;
+    off_plane = p;
+    break;
+  }
+  std::vector<Sign> signs;
+  for (const int face : pair.faces) {
+    const Face& f = scene_.faces()[face];
+    const auto corners = scene_.face_points(face);
+    bool front = false;
+    bool back = false;
+    bool zero = false;
+    signs.clear();
+    for (const int c : corners) {
+      const bool own = c == point_ || c == pair.r->points[0] || c == pair.r->points[1];
+      signs.push_back(own ? Sign::Zero : pair.plane(scene_.point(c)));
+      front |= signs.back() == Sign::Positive;
+      back |= signs.back() == Sign::Negative;
+      zero |= signs.back() == Sign::Zero;
+    }
+    if (!zero || (front && back)) continue;
+    if (!front && !back) {
+      if (!scene_.objects()[f.object].closed || off_plane < 0) return true;
+      // The solid lies behind the face.
+      const Sign solid = -(g_.face_plane(face)(scene_.point(off_plane)) *
+                           pair.plane(scene_.point(off_plane)));
+      (solid == Sign::Positive ? above : below).push_back(face);
+      continue;
+    }
+    if (facet_stamp_[f.facet] == stamp_ || continues_across(face, signs) ||
+        std::find(pair.edge_facets.begin(), pair.edge_facets.end(), f.facet) !=
+            pair.edge_facets.end()) {
+      continue;
+    }
+    (front ? above : below).push_back(face);
+  }
+  for (const int f : above) {
+    const Box& box = g_.face_box(f);
+    const int object = scene_.faces()[f].object;
+    for (const int h : below) {
+      if (scene_.faces()[h].object == object && g_.convex_solid(object)) continue;
+      if (boxes_meet(box, g_.face_box(h))) return true;
+    }
+  }
+  return false;
+}
+
+// For a viewpoint inside a facet of a convex solid, and the lines in that facet's plane:
+// the solid blocks whatever dips below, so a face that stands on the facet with one of
+// its sides blocks all lines that meet this side.
+bool VertexViewer::stands_on_ground(const Pair& pair, int face,
+                                    std::span<const Sign> signs) const {
+  if (!star_->in_plane_only) return false;
+  for (const int ground : star_->planes) {
+    const int facet = scene_.faces()[ground].facet;
+    if (!g_.convex_solid(scene_.facets()[facet].object)) continue;
+    const PlaneSide& plane = g_.face_plane(ground);
+    if (plane(pair.e0) != Sign::Zero || plane(pair.e1) != Sign::Zero) continue;
+    const auto corners = scene_.face_points(face);
+    bool stands = true;
+    for (std::size_t k = 0; k < signs.size() && stands; ++k) {
+      const Point& p = scene_.point(corners[k]);
+      if (signs[k] != Sign::Zero) {
+        stands = plane(p) == Sign::Positive;
+        continue;
+      }
+      const auto& pieces = scene_.facets()[facet].faces;
+      stands = std::any_of(pieces.begin(), pieces.end(), [&](int f) {
+        return locate_in_plane(scene_, f, p) != PointInFace::Outside;
+      });
+    }
+    if (stands) return true;
+  }
+  return false;
+}
+
+// d lies inside the cone iff it is behind all planes at once: an interval of the edge;
+// -d likewise in front of all.
+void VertexViewer::add_unsupported_convex(Pair& pair) {
+  for (const Sign inside : {Sign::Negative, Sign::Positive}) {
+    Cut from = start_cut();
+    Cut to = end_cut();
+    bool empty = false;
+    for (const int face : star_->faces) {
+      const PlaneSide& plane = g_.face_plane(face);
+      const BoundedValue x0 = plane.value(pair.e0);
+      const BoundedValue x1 = plane.value(pair.e1);
+      const Sign s0 = sign_of(x0, plane, pair.e0);
+      const Sign s1 = sign_of(x1, plane, pair.e1);
+      if (s0 == Sign::Zero || s1 == Sign::Zero) {
+        pair.mild = true;
+      }
+      if (s0 == inside && s1 == inside) continue;
+      if (s0 != inside && s1 != inside) {
+        empty = true;
+        continue;
+      }
+      if (s0 == Sign::Zero || s1 == Sign::Zero) continue;  // inside up to that end
+      const Cut cut = pair.keep(make_cut(CutKind::Support, scene_.faces()[face].facet,
+                                         plane_points(scene_, face), x0, x1));
+      const LineThrough line{pair.e0, pair.e1};
+      if (s0 == inside) {
+        if (compare(scene_, line, cut, to) == Sign::Negative) to = cut;
+      } else if (compare(scene_, line, from, cut) == Sign::Negative) {
+        from = cut;
+      }
+    }
+    if (empty) continue;
+    if (inside == Sign::Positive && g_.polygon()) {
+      pair.ending.push_back({from, to});  // seen from outside: the line ends here
+    } else {
+      pair.close(from, to);
+    }
+  }
+}
+
+// Between the planes of any two rays at the viewpoint the picture of the star along the
+// line does not change: one cover test for each stretch.
+void VertexViewer::add_unsupported_general(Pair& pair) {
+  const auto& rays = star_->rays;
+  const std::size_t n = rays.size();
+  struct Turn {
+    Sign before, after;  // at the edge's ends
+    Cut cut;
+  };
+  std::vector<Turn> turns(n * n);
+  std::vector<Cut> cuts;
+  const LineThrough line{pair.e0, pair.e1};
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      const PlaneSide plane({at_, scene_.point(rays[i]), scene_.point(rays[j])});
+      const BoundedValue x0 = plane.value(pair.e0);
+      const BoundedValue x1 = plane.value(pair.e1);
+      Turn t{sign_of(x0, plane, pair.e0), sign_of(x1, plane, pair.e1), {}};
+      // Opposite rays span no plane: zero at both ends, and harmless.
+      if ((t.before == Sign::Zero || t.after == Sign::Zero) &&
+          !collinear(at_, scene_.point(rays[i]), scene_.point(rays[j]))) {
+        pair.degenerate = true;
+        return;
+      }
+      if (t.before != t.after) {
+        int facet = -1;
+        for (const auto& s : star_->sectors) {
+          const auto a = static_cast<std::size_t>(s.from);
+          const auto b = static_cast<std::size_t>(s.to);
+          if ((a == i && b == j) || (a == j && b == i)) facet = s.facet;
+        }
+        t.cut = make_cut(facet < 0 ? CutKind::Saddle : CutKind::Support, facet,
+                         {point_, rays[i], rays[j]}, x0, x1);
+        cuts.push_back(t.cut);
+        pair.keep(t.cut);
+      }
+      turns[i * n + j] = t;
+    }
+  }
+  std::sort(cuts.begin(), cuts.end(), [&](const Cut& a, const Cut& b) {
+    return compare(scene_, line, a, b) == Sign::Negative;
+  });
+  cuts.push_back(end_cut());
+  std::vector<std::int8_t> turn(n * n, 0);
+  Cut from = start_cut();
+  for (const Cut& to : cuts) {
+    if (compare(scene_, line, from, to) == Sign::Negative) {
+      for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = i + 1; j < n; ++j) {
+          const Turn& t = turns[i * n + j];
+          const bool passed =
+              t.before != t.after && compare(scene_, line, t.cut, from) != Sign::Positive;
+          const Sign s = passed ? t.after : t.before;
+          turn[i * n + j] = static_cast<std::int8_t>(s);
+          turn[j * n + i] = static_cast<std::int8_t>(-s);
+        }
+      }
+      bool gap = false;
+      for (std::size_t k = 0; k < n && !gap; ++k) {
+        gap = std::none_of(
+            star_->sectors.begin(), star_->sectors.end(), [&](const Star::Sector& s) {
+              auto a = static_cast<std::size_t>(s.from);
+              auto b = static_cast<std::size_t>(s.to);
+              if (turn[a * n + b] < 0) std::swap(a, b);
+              if (turn[a * n + b] == 0) return false;
+              return a == k || (turn[a * n + k] > 0 && turn[k * n + b] > 0);
+            });
+      }
+      if (!gap && !g_.polygon()) pair.close(from, to);
+      if (!gap && g_.polygon() && !corner_drawn_between(from, to, line)) {
+        pair.close(from, to);
+      } else if (!gap && g_.polygon()) {
+        const bool goes_on =
+            !pair.ending.empty() &&
+            compare(scene_, line, pair.ending.back().to, from) == Sign::Zero;
+        if (goes_on) {
+          pair.ending.back().to = to;
+        } else {
+          pair.ending.push_back({from, to});
+        }
+      }
+    }
+    from = to;
+  }
+}
+
+}  // namespace sightline::internal
