@@ -76,7 +76,7 @@ struct Highlights {
   /// The EEE arc with the most to see, of inner objects where there is one; those from
   /// one EEEE line to another are favoured.
   std::optional<int> eee;
-  /// The longest EEEE line.
+  /// The EEEE line at whose EEE surfaces there is most to see.
   std::optional<int> eeee;
 };
 
@@ -100,15 +100,19 @@ std::optional<int> showiest_eee(const Scene& scene, const Skeleton& skeleton,
   return best;
 }
 
-std::optional<int> longest_eeee(const Skeleton& skeleton) {
+std::optional<int> showiest_eeee(const Scene& scene, const Skeleton& skeleton) {
+  // Of each node the smallest surface that ends there: all of them are to be seen.
+  std::vector<std::optional<double>> smallest(skeleton.nodes.size());
+  for (const EeeArc& arc : skeleton.eee_arcs) {
+    const double volume = spanned_volume(scene, arc);
+    for (const std::uint32_t n : arc.nodes) {
+      smallest[n] = std::min(smallest[n].value_or(volume), volume);
+    }
+  }
   std::optional<int> best;
-  double longest = 0;
   for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
-    const SkeletonNode& node = skeleton.nodes[i];
-    if (node.kind != NodeKind::EEEE) continue;
-    const double length = (node.segment[1] - node.segment[0]).norm();
-    if (length <= longest) continue;
-    longest = length;
+    if (skeleton.nodes[i].kind != NodeKind::EEEE || !smallest[i]) continue;
+    if (best && *smallest[i] <= *smallest[*best]) continue;
     best = static_cast<int>(i);
   }
   return best;
@@ -141,7 +145,7 @@ Highlights find_highlights(const Scene& scene, const Skeleton& skeleton) {
     });
   }
   found.eee = showiest_eee(scene, skeleton, inner);
-  found.eeee = longest_eeee(skeleton);
+  found.eeee = showiest_eeee(scene, skeleton);
   return found;
 }
 
