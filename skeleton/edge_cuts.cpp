@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linespace/predicates_internal.h"
 #include "skeleton/edge_cuts_internal.h"
+#include "skeleton/rounded_root_internal.h"
 
 namespace sightline::internal {
 
@@ -59,6 +61,13 @@ Rational exact_parameter(const Scene& scene, const LineThrough& edge, const Cut&
 double rounded_parameter(const Scene& scene, const LineThrough& edge, const Cut& cut) {
   if (cut.hi - cut.lo <= kRangeError || thread_precision == Precision::Double) {
     return cut.parameter();
+  }
+  if (cut.exact == nullptr) {
+    const auto at = [&](const Point& p) {
+      return ball_orient3d(scene.point(cut.plane[0]), scene.point(cut.plane[1]),
+                           scene.point(cut.plane[2]), p);
+    };
+    if (const auto s = rounded_root(at(edge.from), at(edge.to))) return *s;
   }
   return exact_parameter(scene, edge, cut).convert_to<double>();
 }

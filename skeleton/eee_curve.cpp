@@ -4,7 +4,9 @@
 #include <cassert>
 #include <cmath>
 
+#include "linespace/predicates_internal.h"
 #include "skeleton/eee_curve_internal.h"
+#include "skeleton/rounded_root_internal.h"
 #include "skeleton/skeleton.h"
 
 namespace sightline::internal {
@@ -89,30 +91,65 @@ const Form<Ring>& EeeCurve::exact_form() const {
   return *exact_form_;
 }
 
-Ring EeeCurve::exact_plane(const std::array<std::int32_t, 3>& plane,
-                           std::int32_t point) const {
-  return ring_orient3d(pair_.at(plane[0]), pair_.at(plane[1]), pair_.at(plane[2]),
-                       pair_.at(point));
+// Values at 0 and 1 of the linear polynomial whose root the cut is, by numbers of any
+// type: orient(plane, point) gives them, and form() those of the curve.
+template <class Orient, class CurveForm>
+auto EeeCurve::linear(const CurveCut& cut, const Orient& orient,
+                      const CurveForm& form) const {
+  using T = decltype(orient(cut.plane, 0));
+  const auto& g = carriers_[middle_].points;
+  const auto along_first = [&](const std::array<std::int32_t, 3>& plane) {
+    return std::array<T, 2>{orient(plane, pair_.p[0]), orient(plane, pair_.p[1])};
+  };
+  switch (cut.kind) {
+    case CurveCutKind::Far:
+      return along_first({cut.feature, g[0], g[1]});
+    case CurveCutKind::Middle:
+      return along_first({pair_.q[0], pair_.q[1], cut.feature});
+    case CurveCutKind::OnPlane:
+      return along_first(cut.plane);
+    default: {
+      const T a0 = orient(cut.plane, pair_.q[0]);
+      const T a1 = orient(cut.plane, pair_.q[1]);
+      const Form<T>& f = form();
+      return std::array<T, 2>{a1 * f.f[0][0] - a0 * f.f[0][1],
+                              a1 * f.f[1][0] - a0 * f.f[1][1]};
+    }
+  }
 }
 
 std::array<Ring, 2> EeeCurve::exact_linear(const CurveCut& cut) const {
-  const auto& g = carriers_[middle_].points;
-  switch (cut.kind) {
-    case CurveCutKind::Far:
-      return {exact_plane({cut.feature, g[0], g[1]}, pair_.p[0]),
-              exact_plane({cut.feature, g[0], g[1]}, pair_.p[1])};
-    case CurveCutKind::Middle:
-      return {exact_plane({pair_.q[0], pair_.q[1], cut.feature}, pair_.p[0]),
-              exact_plane({pair_.q[0], pair_.q[1], cut.feature}, pair_.p[1])};
-    case CurveCutKind::OnPlane:
-      return {exact_plane(cut.plane, pair_.p[0]), exact_plane(cut.plane, pair_.p[1])};
-    default: {
-      const Ring a0 = exact_plane(cut.plane, pair_.q[0]);
-      const Ring a1 = exact_plane(cut.plane, pair_.q[1]);
-      const auto& f = exact_form().f;
-      return {a1 * f[0][0] - a0 * f[0][1], a1 * f[1][0] - a0 * f[1][1]};
+  const auto orient = [&](const std::array<std::int32_t, 3>& plane, std::int32_t point) {
+    return ring_orient3d(pair_.at(plane[0]), pair_.at(plane[1]), pair_.at(plane[2]),
+                         pair_.at(point));
+  };
+  return linear(cut, orient, [&]() -> const Form<Ring>& { return exact_form(); });
+}
+
+Form<Ball> EeeCurve::ball_form(int carrier) const {
+  const auto& g = carriers_[carrier].points;
+  Form<Ball> form;
+  for (int a = 0; a < 2; ++a) {
+    for (int b = 0; b < 2; ++b) {
+      form.f[a][b] = ball_orient3d(pair_.at(pair_.p[a]), pair_.at(pair_.q[b]),
+                                   pair_.at(g[0]), pair_.at(g[1]));
     }
   }
+  return form;
+}
+
+// nullopt: not accurate enough.
+std::optional<double> EeeCurve::rounded_from_balls(const CurveCut& cut) const {
+  if (cut.kind == CurveCutKind::Crossing) {
+    return rounded_root(resultant(ball_form(middle_), ball_form(cut.feature)),
+                        cut.rising == (middle_ < cut.feature));
+  }
+  const auto orient = [&](const std::array<std::int32_t, 3>& plane, std::int32_t point) {
+    return ball_orient3d(pair_.at(plane[0]), pair_.at(plane[1]), pair_.at(plane[2]),
+                         pair_.at(point));
+  };
+  const auto [at0, at1] = linear(cut, orient, [&] { return ball_form(middle_); });
+  return rounded_root(at0, at1);
 }
 
 // Coefficients of H = h0 (1-s)^2 + h1 s (1-s) + h2 s^2.
@@ -276,6 +313,7 @@ std::optional<Rational> EeeCurve::between(const CurveCut& a, const CurveCut& b) 
 
 double EeeCurve::rounded(const CurveCut& cut) const {
   if (cut.hi - cut.lo <= kRangeError || in_double()) return cut.parameter();
+  if (const auto s = rounded_from_balls(cut)) return *s;
   const Root r = exact(cut);
   return quotient({r.a, r.b}, {r.c, 0}, r.d);
 }

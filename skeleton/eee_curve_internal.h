@@ -19,6 +19,7 @@
 #include <optional>
 #include <vector>
 
+#include "linespace/exact_numbers_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/rational_internal.h"
 #include "linespace/scene.h"
@@ -179,8 +180,11 @@ class EeeCurve {
   [[nodiscard]] Root exact(const CurveCut& cut) const;
   [[nodiscard]] std::optional<Rational> rational_parameter(const CurveCut& cut) const;
   [[nodiscard]] const Form<Ring>& exact_form() const;
-  [[nodiscard]] Ring exact_plane(const std::array<std::int32_t, 3>& plane,
-                                 std::int32_t point) const;
+  template <class Orient, class CurveForm>
+  [[nodiscard]] auto linear(const CurveCut& cut, const Orient& orient,
+                            const CurveForm& form) const;
+  [[nodiscard]] Form<Ball> ball_form(int carrier) const;
+  [[nodiscard]] std::optional<double> rounded_from_balls(const CurveCut& cut) const;
   [[nodiscard]] std::array<Ring, 2> exact_linear(const CurveCut& cut) const;
   [[nodiscard]] std::array<Ring, 3> exact_quadratic(int carrier) const;
   void where_exactly(int carrier, Sign wanted, const CurveInterval& in,

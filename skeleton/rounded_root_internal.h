@@ -1,0 +1,19 @@
+// Positions on an edge as doubles, where the first enclosure is too wide: from
+// double-double coefficients, a tenth of the cost of exact ones.
+
+#pragma once
+
+#include <optional>
+
+#include "linespace/exact_numbers_internal.h"
+#include "linespace/transversals_internal.h"
+
+namespace sightline::internal {
+
+/// The zero of at0 (1 - s) + at1 s, off by at most kRangeError; nullopt: not certain.
+[[nodiscard]] std::optional<double> rounded_root(const Ball& at0, const Ball& at1);
+
+/// The zero s at which h0 (1 - s)^2 + h1 s (1 - s) + h2 s^2 rises, or falls; likewise.
+[[nodiscard]] std::optional<double> rounded_root(const Quadratic<Ball>& h, bool rises);
+
+}  // namespace sightline::internal
