@@ -16,6 +16,12 @@ struct Box {
 };
 
 [[nodiscard]] Box box_of(std::span<const Point> points);
+/// Rounded.
+[[nodiscard]] inline Point centre(const Box& box) {
+  Point c;
+  for (int i = 0; i < 3; ++i) c[i] = 0.5 * (box.min[i] + box.max[i]);
+  return c;
+}
 
 /// Binary tree; nodes are stored so that the two children of a node are neighbours.
 class Bvh {

@@ -8,12 +8,10 @@ constexpr std::size_t kLongest = 512;
 
 }  // namespace
 
-void BlockerList::list(const Point& p0, const Point& p1, const Box& group,
-                       const Shaft::Pad& pad) {
+void BlockerList::list(const Shaft& hull, const Point& toward) {
   listed_ = true;
   list_.clear();
-  const Shaft hull(p0, p1, group, pad);
-  for (int i = 0; i < 3; ++i) toward_[i] = 0.5 * (group.min[i] + group.max[i]) - p0[i];
+  toward_ = toward;
   too_many_ = g_->blocker_tree().any_towards(
       toward_, [&](const Box& box) { return hull.may_meet(box); },
       [&](std::uint32_t item) {

@@ -1,5 +1,5 @@
-// The blockers (generators_internal.h) between a viewpoint or an edge and a group of
-// edges, listed once for all of the group.
+// The blockers (generators_internal.h) between some viewpoints or an edge and a group of
+// edges, listed once for all of them.
 
 #pragma once
 
@@ -19,11 +19,9 @@ class BlockerList {
   /// Another group: what was listed is forgotten.
   void forget() { listed_ = false; }
   [[nodiscard]] bool listed() const { return listed_; }
-  /// Lists the blockers whose boxes may meet the hull of the segment p0 p1, each end off
-  /// by `pad`, and the group's box, from p0 outwards; when they are too many to be worth
-  /// it, some.
-  void list(const Point& p0, const Point& p1, const Box& group,
-            const Shaft::Pad& pad = {});
+  /// Lists the blockers whose boxes may meet the hull, those that are less far `toward`
+  /// some direction mostly first; when they are too many to be worth it, some.
+  void list(const Shaft& hull, const Point& toward);
   /// Those listed.
   [[nodiscard]] std::size_t size() const { return list_.size(); }
 

@@ -120,8 +120,7 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
         sides.push_back({std::min(p, q), std::max(p, q)});
       }
     }
-    std::sort(sides.begin(), sides.end());
-    sides.erase(std::unique(sides.begin(), sides.end()), sides.end());
+    sort_unique(sides);
     const ExactPoint eye = exact_point(v);
     const ExactPoint up = exact_point(scene.point(off_plane));
     for (std::size_t i = 0; i < sides.size(); ++i) {
@@ -169,8 +168,7 @@ std::uint32_t contact_node(const Generators& g, const Star& star, const Ridge& r
     const auto& there = g.stars()[g.star_of_point(far)].faces;
     faces.insert(faces.end(), there.begin(), there.end());
   }
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sort_unique(faces);
   const ExactPoint x0 = exact_point(scene.point(ridge.points[0]));
   const ExactPoint x1 = exact_point(scene.point(ridge.points[1]));
   const LineThrough line{scene.point(ridge.points[0]), scene.point(ridge.points[1])};
@@ -191,8 +189,7 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
 
   std::vector<int> faces(meeting.begin(), meeting.end());
   faces.insert(faces.end(), star.faces.begin(), star.faces.end());
-  std::sort(faces.begin(), faces.end());
-  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  sort_unique(faces);
   const std::vector<Cut> cuts =
       critical_cuts(g, star, e0, e1, plane, faces, out.positions);
   const ExactPoint from = exact_point(v);

@@ -32,27 +32,49 @@ void EdgePairs::visit(int i, const std::function<bool()>& stop,
   const Bvh& tree = g_.ridge_tree();
   if (tree.empty()) return;
   view_.begin(i);
-  struct {
-    std::uint32_t node;
-    EdgeView::Pieces open;  // of the first edge: from which the parent is not hidden
-  } stack[128];
-  int top = 0;
-  stack[top++] = {0, view_.pieces()};
-  while (top > 0) {
-    const auto [at, from] = stack[--top];
-    const Bvh::Node& node = tree.node(at);
-    if (g_.ridge_group(at).highest <= i) continue;
-    if (!selection_.may_pair(i, view_.box(), at, node.box)) continue;
-    if (view_.never_touched_from(node.box) || view_.hides(node.box)) continue;
-    open_ = view_.open(from, node.box);
-    if (from != 0 && open_ == 0) continue;
-    if (g_.ridge_group(at).begins) view_.look_at(node.box);
-    if (node.count == 0) {
-      stack[top++] = {node.first + 1, open_};
-      stack[top++] = {node.first, open_};
+  std::vector<Subtree> stack{{0, view_.pieces()}};
+  while (!stack.empty() && !stop()) {
+    Subtree at = stack.back();
+    stack.pop_back();
+    if (!may_pair(i, at)) continue;
+    if (g_.ridge_group(at.node).begins) {
+      view_.look_at(tree.node(at.node).box, at.open);
+      visit_group(i, at, out);
+      view_.look_away();
       continue;
     }
-    if (stop()) return;
+    const std::uint32_t child = tree.node(at.node).first;
+    stack.push_back({child + 1, at.open});
+    stack.push_back({child, at.open});
+  }
+}
+
+// False: no ridge below can be the last of a pair; else leaves the pieces of the first
+// from which it can.
+bool EdgePairs::may_pair(int i, Subtree& at) {
+  const Box& box = g_.ridge_tree().node(at.node).box;
+  if (g_.ridge_group(at.node).highest <= i) return false;
+  if (!selection_.may_pair(i, view_.box(), at.node, box)) return false;
+  if (view_.never_touched_from(box) || view_.hides(box)) return false;
+  const bool cut = at.open != 0;
+  at.open = view_.open(at.open, box);
+  return !cut || at.open != 0;
+}
+
+void EdgePairs::visit_group(int i, const Subtree& group, std::vector<FoundArc>& out) {
+  const Bvh& tree = g_.ridge_tree();
+  std::vector<Subtree> stack{group};
+  while (!stack.empty()) {
+    Subtree at = stack.back();
+    stack.pop_back();
+    if (at.node != group.node && !may_pair(i, at)) continue;
+    const Bvh::Node& node = tree.node(at.node);
+    if (node.count == 0) {
+      stack.push_back({node.first + 1, at.open});
+      stack.push_back({node.first, at.open});
+      continue;
+    }
+    open_ = at.open;
     for (std::uint32_t k = 0; k < node.count; ++k) {
       const int j = static_cast<int>(tree.items()[node.first + k]);
       if (j > i && selection_.has(j) && selection_.has_outer(i, j) &&

@@ -64,6 +64,13 @@ class EdgePairs {
     std::array<PlaneValues, 2> first_planes, last_planes;
   };
 
+  struct Subtree {
+    std::uint32_t node;
+    EdgeView::Pieces open;  // of the first edge: from which it is not hidden
+  };
+
+  [[nodiscard]] bool may_pair(int i, Subtree& at);
+  void visit_group(int i, const Subtree& group, std::vector<FoundArc>& out);
   void visit_pair(int i, int j, std::vector<FoundArc>& out);
   [[nodiscard]] static bool share_facet(const Ridge& a, const Ridge& b);
   [[nodiscard]] bool gather(const Outer& outer);

@@ -11,12 +11,6 @@ namespace {
 // the group: fewer are sorted out pair by pair.
 constexpr std::size_t kManyBlockers = 24;
 
-template <class T>
-void sort_unique(std::vector<T>& items) {
-  std::sort(items.begin(), items.end());
-  items.erase(std::unique(items.begin(), items.end()), items.end());
-}
-
 }  // namespace
 
 EdgeView::EdgeView(const Generators& generators)
@@ -54,12 +48,21 @@ void EdgeView::begin_piece(std::size_t view, double from, double to) {
   v.occluders.begin(v.piece.corners(), ridge_->objects, ridge_->all_facets);
 }
 
-void EdgeView::look_at(const Box& group) {
+void EdgeView::look_at(const Box& group, Pieces open) {
   group_ = group;
   decided_ = cut_ = false;
-  for (int k = 0; k <= piece_count_ && k < static_cast<int>(views_.size()); ++k) {
-    views_[k].between.forget();
+  const auto look = [&](PieceView& view) {
+    view.between.forget();
+    view.occluders.look_at(group);
+  };
+  look(whole());
+  for (Pieces left = open; left != 0; left &= left - 1) {
+    look(views_[std::countr_zero(left) + 1]);
   }
+}
+
+void EdgeView::look_away() {
+  for (PieceView& view : views_) view.occluders.look_away();
 }
 
 EdgeView::Pieces EdgeView::open(Pieces pieces, const Box& box) {
@@ -86,7 +89,8 @@ bool EdgeView::never_touched_from(const Box& box) const {
 
 void EdgeView::list_blockers(PieceView& view) const {
   const EdgePiece& piece = view.piece;
-  view.between.list(piece.point(0), piece.point(1), group_, piece.pad());
+  view.between.list({piece.point(0), piece.point(1), group_, piece.pad()},
+                    centre(group_) - piece.point(0));
 }
 
 // A blocker whose box the hull may meet.

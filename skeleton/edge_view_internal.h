@@ -46,8 +46,10 @@ class EdgeView {
   /// inner ones, with what was left of the outer one: what hid a piece last is kept.
   [[nodiscard]] Pieces open(Pieces pieces, const Box& box);
 
-  /// Looks at a group of edges: those inside the box.
-  void look_at(const Box& group);
+  /// Looks at a group of edges from all of the edge and from these pieces: until
+  /// look_away() all that is asked is inside the box.
+  void look_at(const Box& group, Pieces open);
+  void look_away();
 
   /// A part of the edge as it looks at an edge of the group.
   struct Part {

@@ -1,102 +1,49 @@
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <optional>
-#include <unordered_map>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/eee_skeleton_internal.h"
-#include "skeleton/line_key_internal.h"
+#include "skeleton/large_arrays_internal.h"
 #include "skeleton/parallel_internal.h"
 #include "skeleton/skeleton_lines.h"
 
 namespace sightline::internal {
 namespace {
 
-// One node for each line, also for those that the EV part has found.
-class LineJoiner {
- public:
-  LineJoiner(Skeleton& skeleton, NodeEnds& ends)
-      : out_(skeleton), ends_(ends), solid_(skeleton.events == EventMode::Solid) {
-    for (std::uint32_t i = 0; i < out_.nodes.size(); ++i) {
-      const SkeletonNode& node = out_.nodes[i];
-      if (node.kind == NodeKind::Degenerate) {
-        const auto generators = out_.generators(node);
-        degenerate_.try_emplace({{generators.begin(), generators.end()}, node.second}, i);
-      }
-      const auto generators = out_.generators(node);
-      if (node.kind == NodeKind::FvE) {
-        known_.try_emplace(face_line_key(solid_ && node.end, generators), i);
-      } else if (node.kind == NodeKind::VEE || node.kind == NodeKind::EVE) {
-        known_.try_emplace(line_key(node.kind, false, generators), i);
-      }
-    }
-  }
+std::span<const Generator> generators_of(const FoundNode& found) {
+  if (!found.all.empty()) return found.all;
+  return {found.generators.data(), found.count};
+}
 
-  /// All arcs of one first edge.
-  void add(std::vector<FoundArc>& arcs) {
-    local_.clear();
-    for (FoundArc& found : arcs) {
-      for (int k = 0; k < 2; ++k) found.arc.nodes[k] = add_node(found.ends[k]);
-      out_.eee_arcs.push_back(found.arc);
-    }
-  }
+std::uint32_t join(const FoundNode& found, NodeJoiner& nodes) {
+  SkeletonNode node;
+  node.kind = found.kind;
+  node.self = found.self;
+  node.end = found.end || found.ends[0] || found.ends[1];
+  node.ends = found.ends;
+  node.second = found.rising;
+  node.segment = found.segment;
+  return nodes.join(node, generators_of(found), found.grazes);
+}
 
- private:
-  std::uint32_t add_node(const FoundNode& found) {
-    const std::span<const Generator> generators =
-        found.all.empty()
-            ? std::span<const Generator>(found.generators.data(), found.count)
-            : std::span<const Generator>(found.all);
-    const auto next = static_cast<std::uint32_t>(out_.nodes.size());
-    const bool end = found.end || found.ends[0] || found.ends[1];
-    const std::uint32_t node = numbered(found, generators, end, next);
-    if (node == next) {
-      append(found, generators);
-    } else {
-      ends_.found(node, found.grazes, end, found.ends, generators);
-    }
-    return node;
-  }
-
-  // The number under which the node is known, or becomes known.
-  std::uint32_t numbered(const FoundNode& found, std::span<const Generator> generators,
-                         bool end, std::uint32_t next) {
-    if (found.kind == NodeKind::Degenerate) {
-      return degenerate_.try_emplace({found.all, found.rising}, next).first->second;
-    }
-    // Both arcs that end at an EEEE are found between the same outer edges.
-    auto& nodes = found.kind == NodeKind::EEEE ? local_ : known_;
-    const LineKey key = found.kind == NodeKind::FvE
-                            ? face_line_key(solid_ && end, generators)
-                            : line_key(found.kind, found.rising, generators);
-    return nodes.try_emplace(key, next).first->second;
-  }
-
-  void append(const FoundNode& found, std::span<const Generator> generators) {
-    SkeletonNode node;
-    node.kind = found.kind;
-    node.self = found.self;
-    node.end = found.end || found.ends[0] || found.ends[1];
-    node.ends = found.ends;
-    node.second = found.rising;
-    node.first_generator = static_cast<std::uint32_t>(out_.generator_pool.size());
-    node.generator_count = static_cast<std::uint32_t>(generators.size());
-    node.segment = found.segment;
-    out_.generator_pool.insert(out_.generator_pool.end(), generators.begin(),
-                               generators.end());
-    out_.nodes.push_back(node);
-    ends_.add(found.grazes);
-  }
-
-  Skeleton& out_;
-  NodeEnds& ends_;
-  bool solid_;
-  std::unordered_map<LineKey, std::uint32_t, LineHash> known_, local_;
-  // By all generators, and which of two lines.
-  std::map<std::pair<std::vector<Generator>, bool>, std::uint32_t> degenerate_;
-};
+// All arcs of one first edge.
+void add_arcs(std::vector<FoundArc>& arcs, NodeJoiner& nodes, Skeleton& out) {
+  // Both arcs that end at an EEEE are found between the same outer edges.
+  nodes.forget_eeee();
+  const auto end = [&](std::size_t i) -> const FoundNode& {
+    return arcs[i / 2].ends[i % 2];
+  };
+  nodes.join_each(
+      2 * arcs.size(),
+      [&](std::size_t i) { return std::pair(end(i).kind, generators_of(end(i))); },
+      [&](std::size_t i) { arcs[i / 2].arc.nodes[i % 2] = join(end(i), nodes); });
+  make_room(out.eee_arcs, arcs.size());
+  for (const FoundArc& found : arcs) out.eee_arcs.push_back(found.arc);
+}
 
 // Without the arcs that neither have an edge on the source nor lines that end there.
 void drop_arcs_off_source(const Generators& g, const EeePart& part,
@@ -115,7 +62,7 @@ void drop_arcs_off_source(const Generators& g, const EeePart& part,
 
 void add_eee(const Generators& generators, const SkeletonRequest& request,
              std::chrono::steady_clock::time_point start, std::array<double, 2> progress,
-             Skeleton& skeleton, NodeEnds& ends) {
+             Skeleton& skeleton, NodeJoiner& nodes) {
   const EeePart part = eee_part(generators, request);
   const std::vector<int> firsts = asked_ridges(generators, part);
   skeleton.edges_asked = firsts.size();
@@ -124,7 +71,6 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
     return;
   }
   const Carriers carriers(generators);
-  LineJoiner joiner(skeleton, ends);
   std::optional<SkeletonLines> lines;
   if (part.by_lines) lines.emplace(generators.scene());
   skeleton.stopped_by = for_each_parallel(
@@ -142,7 +88,7 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
         return arcs;
       },
       [&](std::size_t, std::vector<FoundArc>&& arcs) {
-        joiner.add(arcs);
+        add_arcs(arcs, nodes, skeleton);
         ++skeleton.edges_done;
         return skeleton.bytes() < request.budget_bytes;
       });

@@ -6,7 +6,7 @@
 #include <chrono>
 
 #include "skeleton/generators_internal.h"
-#include "skeleton/node_ends_internal.h"
+#include "skeleton/node_joiner_internal.h"
 #include "skeleton/skeleton.h"
 
 namespace sightline::internal {
@@ -15,6 +15,6 @@ namespace sightline::internal {
 /// request, whose VEE and EVE nodes are shared.
 void add_eee(const Generators& generators, const SkeletonRequest& request,
              std::chrono::steady_clock::time_point start, std::array<double, 2> progress,
-             Skeleton& skeleton, NodeEnds& ends);
+             Skeleton& skeleton, NodeJoiner& nodes);
 
 }  // namespace sightline::internal

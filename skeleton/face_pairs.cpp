@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <optional>
 
@@ -240,45 +239,26 @@ void FacePairs::add_node(int f, int g, std::size_t first, std::size_t last,
 
 namespace {
 
-class FacePairJoiner {
- public:
-  explicit FacePairJoiner(Skeleton& skeleton) : out_(skeleton) {
-    for (std::uint32_t i = 0; i < out_.nodes.size(); ++i) {
-      if (out_.nodes[i].kind != NodeKind::Degenerate) continue;
-      const auto generators = out_.generators(out_.nodes[i]);
-      degenerate_.try_emplace({generators.begin(), generators.end()}, i);
-    }
+void add_pair(const FoundFacePair& found, NodeJoiner& nodes) {
+  const NodeContacts& contacts = found.contacts;
+  SkeletonNode node;
+  node.kind = contacts.kind;
+  node.self = contacts.self;
+  node.end = contacts.end;
+  node.segment = found.segment;
+  if (node.kind == NodeKind::Degenerate) {
+    nodes.add_if_new(node, contacts.generators);
+  } else {
+    nodes.add(node, contacts.generators, true);
   }
-
-  void add(const FoundFacePair& found) {
-    const NodeContacts& contacts = found.contacts;
-    const auto next = static_cast<std::uint32_t>(out_.nodes.size());
-    if (contacts.kind == NodeKind::Degenerate &&
-        !degenerate_.try_emplace(contacts.generators, next).second) {
-      return;
-    }
-    SkeletonNode node;
-    node.kind = contacts.kind;
-    node.self = contacts.self;
-    node.end = contacts.end;
-    node.first_generator = static_cast<std::uint32_t>(out_.generator_pool.size());
-    node.generator_count = static_cast<std::uint32_t>(contacts.generators.size());
-    node.segment = found.segment;
-    out_.generator_pool.insert(out_.generator_pool.end(), contacts.generators.begin(),
-                               contacts.generators.end());
-    out_.nodes.push_back(node);
-  }
-
- private:
-  Skeleton& out_;
-  std::map<std::vector<Generator>, std::uint32_t> degenerate_;
-};
+}
 
 }  // namespace
 
 void add_face_pairs(const Generators& generators, const SkeletonRequest& request,
                     std::chrono::steady_clock::time_point start,
-                    std::array<double, 2> progress, Skeleton& skeleton) {
+                    std::array<double, 2> progress, Skeleton& skeleton,
+                    NodeJoiner& nodes) {
   const Scene& scene = generators.scene();
   const FacetPart part = facet_part(generators, request);
   std::vector<int> firsts;
@@ -295,7 +275,6 @@ void add_face_pairs(const Generators& generators, const SkeletonRequest& request
     boxes.push_back(box_of_facet(generators, facet));
   }
   const Bvh tree(boxes);
-  FacePairJoiner joiner(skeleton);
   skeleton.stopped_by = for_each_parallel(
       firsts.size(), request, start, progress, skeleton.predicates,
       [&] { return std::make_unique<FacePairs>(generators, tree, part); },
@@ -308,7 +287,7 @@ void add_face_pairs(const Generators& generators, const SkeletonRequest& request
         return found;
       },
       [&](std::size_t, std::vector<FoundFacePair>&& found) {
-        for (const FoundFacePair& one : found) joiner.add(one);
+        for (const FoundFacePair& one : found) add_pair(one, nodes);
         ++skeleton.facets_done;
         return skeleton.bytes() < request.budget_bytes;
       });

@@ -9,6 +9,7 @@
 #include "linespace/rational_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/node_contacts_internal.h"
+#include "skeleton/node_joiner_internal.h"
 #include "skeleton/part_internal.h"
 #include "skeleton/skeleton.h"
 
@@ -62,6 +63,7 @@ class FacePairs {
 /// Adds the FF nodes to a skeleton, and to its degenerate nodes those that are new.
 void add_face_pairs(const Generators& generators, const SkeletonRequest& request,
                     std::chrono::steady_clock::time_point start,
-                    std::array<double, 2> progress, Skeleton& skeleton);
+                    std::array<double, 2> progress, Skeleton& skeleton,
+                    NodeJoiner& nodes);
 
 }  // namespace sightline::internal

@@ -82,8 +82,7 @@ std::vector<int> faces_beyond(const Generators& g, const std::vector<Point>& p,
                              }
                            });
   }
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found);
   return found;
 }
 
@@ -700,8 +699,7 @@ std::vector<double> FarPieces::stops(const EeeArc& arc) const {
     faces = faces_beyond(g_, chains.first, chains.last, chains.error);
     const auto before = faces_beyond(g_, chains.last, chains.first, chains.error);
     faces.insert(faces.end(), before.begin(), before.end());
-    std::sort(faces.begin(), faces.end());
-    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    sort_unique(faces);
   } else {
     for (std::size_t f = 0; f < g_.scene().faces().size(); ++f) {
       faces.push_back(static_cast<int>(f));

@@ -99,8 +99,7 @@ Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
     std::vector<std::int32_t> ids;
     for (const int f : scene.faces_at(static_cast<int>(p)))
       ids.push_back(scene.faces()[f].object);
-    std::sort(ids.begin(), ids.end());
-    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    sort_unique(ids);
     object_ids_.insert(object_ids_.end(), ids.begin(), ids.end());
     object_starts_[p + 1] = static_cast<std::int32_t>(object_ids_.size());
   }

@@ -214,6 +214,12 @@ class Generators {
   return plane(p);
 }
 
+template <class T>
+void sort_unique(std::vector<T>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
+}
+
 /// Some id is in both.
 [[nodiscard]] inline bool share(std::span<const std::int32_t> a,
                                 std::span<const std::int32_t> b) {

@@ -70,8 +70,7 @@ class IrrationalScan {
       const int ridge = g_.ridge_of_edge(edge);
       found.push_back({GeneratorKind::Edge, ridge < 0 ? edge : g_.ridges()[ridge].edge});
     }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
+    sort_unique(found);
     return found;
   }
 

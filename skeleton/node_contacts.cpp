@@ -37,8 +37,7 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
       facets.push_back(scene.faces()[t.face].facet);
     }
   }
-  std::sort(facets.begin(), facets.end());
-  facets.erase(std::unique(facets.begin(), facets.end()), facets.end());
+  sort_unique(facets);
   // A side through which the line leaves an edge-on face says nothing new.
   std::erase_if(found, [&](const Generator& x) {
     if (x.kind != GeneratorKind::Edge) return false;
@@ -49,8 +48,7 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
     });
   });
   for (const int f : facets) found.push_back({GeneratorKind::Face, f});
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
+  sort_unique(found);
   return found;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "skeleton/occluder_shadow_internal.h"
 #include "skeleton/occluders_internal.h"
@@ -11,6 +12,16 @@ constexpr std::size_t kRecent = 16;  // speed only
 
 std::array<double, 3> relative(const std::array<double, 3>& p, const Point& origin) {
   return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};
+}
+
+// Adds what is not there.
+void move_to_front(std::int32_t x, std::vector<std::int32_t>& items) {
+  const auto at = std::find(items.begin(), items.end(), x);
+  if (at == items.end()) {
+    items.insert(items.begin(), x);
+  } else {
+    std::rotate(items.begin(), at, at + 1);
+  }
 }
 
 // A segment held against boxes, in doubles as they come: speed only.
@@ -69,6 +80,7 @@ void Occluders::begin(std::span<const Point> viewpoints,
   shadows_.clear();
   faces_.clear();
   recent_.clear();
+  looking_ = false;
 }
 
 // -1 for the viewpoints' own, and where nothing is hidden.
@@ -130,24 +142,42 @@ bool Occluders::hides(int shadow) const {
   return inside;
 }
 
-int Occluders::recent_hider() {
-  for (std::size_t k = 0; k < recent_.size(); ++k) {
-    if (!hides(recent_[k])) continue;
-    const auto at = recent_.begin() + static_cast<std::ptrdiff_t>(k);
-    std::rotate(recent_.begin(), at, at + 1);
-    return faces_[recent_.front()];
+// Nothing inside the one box looked at is hidden.
+bool Occluders::beside(int shadow) const {
+  const auto all = shadows(shadow);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].beside(targets_[k].low.front(), targets_[k].high.front())) return true;
   }
-  return -1;
+  return false;
+}
+
+void Occluders::look_at(const Box& box) {
+  looking_ = true;
+  in_view_.clear();
+  if (recent_.empty()) return;
+  aim(std::span(&box, 1));
+  std::copy_if(recent_.begin(), recent_.end(), std::back_inserter(in_view_),
+               [&](std::int32_t shadow) { return !beside(shadow); });
+}
+
+int Occluders::recent_hider() {
+  const std::vector<std::int32_t>& asked = looking_ ? in_view_ : recent_;
+  const auto hider =
+      std::find_if(asked.begin(), asked.end(), [&](int shadow) { return hides(shadow); });
+  if (hider == asked.end()) return -1;
+  const int shadow = *hider;
+  keep(shadow);
+  return faces_[shadow];
 }
 
 int Occluders::hider(const Box& box) {
-  if (recent_.empty()) return -1;
+  if ((looking_ ? in_view_ : recent_).empty()) return -1;
   aim(std::span(&box, 1));
   return recent_hider();
 }
 
 int Occluders::hider(const Point& q0, const Point& q1) {
-  if (recent_.empty()) return -1;
+  if ((looking_ ? in_view_ : recent_).empty()) return -1;
   aim(std::array{box_of(std::span(&q0, 1)), box_of(std::span(&q1, 1))});
   return recent_hider();
 }
@@ -176,9 +206,9 @@ void Occluders::remember(int face) {
 }
 
 void Occluders::keep(int shadow) {
-  if (std::find(recent_.begin(), recent_.end(), shadow) != recent_.end()) return;
-  if (recent_.size() >= kRecent) recent_.pop_back();
-  recent_.insert(recent_.begin(), shadow);
+  move_to_front(shadow, recent_);
+  if (recent_.size() > kRecent) recent_.pop_back();
+  if (looking_) move_to_front(shadow, in_view_);
 }
 
 }  // namespace sightline::internal

@@ -27,6 +27,11 @@ class Occluders {
   void begin(std::span<const Point> viewpoints, std::span<const std::int32_t> own_objects,
              std::span<const std::int32_t> own_facets);
 
+  /// All that is asked until look_away() is inside the box: occluders that hide nothing
+  /// there are not asked.
+  void look_at(const Box& box);
+  void look_away() { looking_ = false; }
+
   /// A face of one that hid something lately and hides each segment in the box; -1.
   [[nodiscard]] int hider(const Box& box);
   /// The segment q0 q1.
@@ -45,6 +50,7 @@ class Occluders {
   // Looks at the hull of one box or of two.
   void aim(std::span<const Box> parts);
   [[nodiscard]] bool hides(int shadow) const;
+  [[nodiscard]] bool beside(int shadow) const;
   [[nodiscard]] int recent_hider();
   void keep(int shadow);
 
@@ -64,6 +70,8 @@ class Occluders {
   std::vector<std::int32_t> shadow_index_;  // by occluder, -2 unknown, -1 none
   std::vector<std::int64_t> shadow_keys_;   // to reset
   std::vector<std::int32_t> recent_;        // those that hid something last come first
+  bool looking_ = false;
+  std::vector<std::int32_t> in_view_;  // of these, while looking at a box
 };
 
 }  // namespace sightline::internal

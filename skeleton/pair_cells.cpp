@@ -54,20 +54,38 @@ bool vanishes(const BoundedForm& form, double s, double t) {
   return t == 1 && z[0][1] && z[1][1];
 }
 
-// Signs of a form at the corners (s0, t0), (s0, t1), (s1, t0), (s1, t1).  Two rounds of
+// A form at the corners (s0, t0), (s0, t1), (s1, t0), (s1, t1) of a cell.  Two rounds of
 // interpolation, of three roundings each.
-Signs<4> signs(const BoundedForm& form, double s0, double s1, double t0, double t1) {
-  const auto& f = form.f;
-  const double d0 = f[0][1] - f[0][0];
-  const double d1 = f[1][1] - f[1][0];
-  const double low0 = f[0][0] + d0 * t0;
-  const double low1 = f[0][0] + d0 * t1;
-  const double up0 = (f[1][0] + d1 * t0) - low0;
-  const double up1 = (f[1][0] + d1 * t1) - low1;
-  const double error = form.error + 24 * kU * form.largest;
-  Signs<4> out{
-      {certain_sign(low0 + up0 * s0, error), certain_sign(low1 + up1 * s0, error),
-       certain_sign(low0 + up0 * s1, error), certain_sign(low1 + up1 * s1, error)}};
+struct AtCorners {
+  std::array<double, 4> value;
+  double error;
+
+  AtCorners(const BoundedForm& form, double s0, double s1, double t0, double t1)
+      : error(form.error + 24 * kU * form.largest) {
+    const auto& f = form.f;
+    const double d0 = f[0][1] - f[0][0];
+    const double d1 = f[1][1] - f[1][0];
+    const double low0 = f[0][0] + d0 * t0;
+    const double low1 = f[0][0] + d0 * t1;
+    const double up0 = (f[1][0] + d1 * t0) - low0;
+    const double up1 = (f[1][0] + d1 * t1) - low1;
+    value = {low0 + up0 * s0, low1 + up1 * s0, low0 + up0 * s1, low1 + up1 * s1};
+  }
+
+  // Most often they are of one sign without a doubt, Zero when not.
+  [[nodiscard]] Sign common() const {
+    const double least = std::min({value[0], value[1], value[2], value[3]});
+    const double largest = std::max({value[0], value[1], value[2], value[3]});
+    return least > error      ? Sign::Positive
+           : largest < -error ? Sign::Negative
+                              : Sign::Zero;
+  }
+};
+
+Signs<4> signs(const AtCorners& v, const BoundedForm& form, double s0, double s1,
+               double t0, double t1) {
+  Signs<4> out{{certain_sign(v.value[0], v.error), certain_sign(v.value[1], v.error),
+                certain_sign(v.value[2], v.error), certain_sign(v.value[3], v.error)}};
   for (unsigned c = 0; c < 4; ++c) {
     if (out.at[c] == Sign::Zero &&
         vanishes(form, (c & 2u) != 0 ? s1 : s0, (c & 1u) != 0 ? t1 : t0)) {
@@ -159,9 +177,12 @@ std::optional<PairCells::Corners> PairCells::passage(const Face& face, const Cel
   corners.closed = corners.inside;
   const std::size_t mixed = mixed_.size();
   for (const Side& side : std::span(sides_).subspan(face.first_side, face.side_count)) {
-    const auto s = signs(*side.form, cell.s0, cell.s1, cell.t0, cell.t1);
     // As EdgePairs::block(): from front to back, sides have negative forms.
     const Sign wanted = side.forward ? -entry : entry;
+    const AtCorners values(*side.form, cell.s0, cell.s1, cell.t0, cell.t1);
+    const Sign certain = values.common();
+    if (certain != Sign::Zero && (entry == Sign::Zero || certain == wanted)) continue;
+    const auto s = signs(values, *side.form, cell.s0, cell.s1, cell.t0, cell.t1);
     const Sign all = s.common();
     if (all != Sign::Zero && entry != Sign::Zero && all != wanted) {
       mixed_.resize(mixed);
@@ -247,8 +268,10 @@ bool PairCells::faces_along(const BoundedForm& form, bool turned, double from, d
   for (const Leaf& leaf : leaves_) {
     const Cell c =
         turned ? Cell{leaf.cell.t0, leaf.cell.t1, leaf.cell.s0, leaf.cell.s1} : leaf.cell;
-    if (to < c.s0 || from > c.s1 ||
-        signs(form, c.s0, c.s1, c.t0, c.t1).common() != Sign::Zero) {
+    if (to < c.s0 || from > c.s1) continue;
+    const AtCorners values(form, c.s0, c.s1, c.t0, c.t1);
+    if (values.common() != Sign::Zero ||
+        signs(values, form, c.s0, c.s1, c.t0, c.t1).common() != Sign::Zero) {
       continue;
     }
     open |= !leaf.hidden;

@@ -16,7 +16,6 @@
 #include <optional>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "linespace/predicates.h"
 #include "linespace/request.h"
@@ -56,13 +55,12 @@ StoppedBy for_each_parallel(std::size_t count, const Request& request,
   const int threads = threads_of(request);
   using Worker = decltype(make());
   using Result = decltype(step(*std::declval<Worker&>(), std::size_t{0}));
-  struct Batch {
-    std::size_t first = 0;
-    std::vector<std::optional<Result>> results;
+  struct Item {
+    std::size_t number = 0;
+    std::optional<Result> result;
     StageCounts counts;
   };
-  constexpr std::size_t kBatch = 4;
-  constexpr std::size_t kBatchesInFlight = 256;
+  constexpr std::size_t kInFlight = 1024;
   std::atomic<bool> stopped{false};
   std::size_t next = 0;
   bool cut = false;
@@ -72,50 +70,47 @@ StoppedBy for_each_parallel(std::size_t count, const Request& request,
                                     static_cast<std::size_t>(threads));
   oneapi::tbb::task_arena arena(threads);
   oneapi::tbb::enumerable_thread_specific<Worker> workers;
-  const auto first_of_batch = [&](oneapi::tbb::flow_control& flow) -> std::size_t {
+  const auto number = [&](oneapi::tbb::flow_control& flow) -> std::size_t {
     if (next >= count || stopped.load(std::memory_order_relaxed)) {
       flow.stop();
       return 0;
     }
-    const std::size_t first = next;
-    next += kBatch;
-    return first;
+    return next++;
   };
-  const auto compute = [&](std::size_t first) {
+  const auto compute = [&](std::size_t i) {
     const PrecisionScope scope(request.precision);
     const StageCounts at_first = thread_stage_counts();
-    auto batch = std::make_shared<Batch>();
-    batch->first = first;
+    auto item = std::make_shared<Item>();
+    item->number = i;
     Worker& worker = workers.local();
     if (!worker) worker = make();
-    for (std::size_t i = first; i < std::min(count, first + kBatch); ++i) {
-      if (must_stop(request, start)) stopped = true;
-      if (stopped.load(std::memory_order_relaxed)) break;
+    if (must_stop(request, start)) stopped = true;
+    if (!stopped.load(std::memory_order_relaxed)) {
       Result result = step(*worker, i);
       if (must_stop(request, start)) {
         stopped = true;
-        break;
+      } else {
+        item->result.emplace(std::move(result));
       }
-      batch->results.emplace_back(std::move(result));
     }
-    batch->counts = difference(thread_stage_counts(), at_first);
-    return batch;
+    item->counts = difference(thread_stage_counts(), at_first);
+    return item;
   };
-  const auto deliver = [&](const std::shared_ptr<Batch>& batch) {
-    for (std::size_t k = 0; k < batch->results.size() && !cut; ++k) {
+  const auto deliver = [&](const std::shared_ptr<Item>& item) {
+    // Nothing after a gap, so that a partial answer is a prefix.
+    cut = cut || !item->result;
+    if (!cut) {
       ++consumed;
-      if (!consume(batch->first + k, std::move(*batch->results[k]))) {
+      if (!consume(item->number, std::move(*item->result))) {
         if (consumed < count) by = StoppedBy::Bytes;
         cut = stopped = true;
       }
     }
-    // Nothing after a gap, so that a partial answer is a prefix.
-    if (batch->results.size() < std::min(kBatch, count - batch->first)) cut = true;
-    counts.by_double += batch->counts.by_double;
-    counts.by_interval += batch->counts.by_interval;
-    counts.by_exact += batch->counts.by_exact;
+    counts.by_double += item->counts.by_double;
+    counts.by_interval += item->counts.by_interval;
+    counts.by_exact += item->counts.by_exact;
     if (request.progress) {
-      const double share = static_cast<double>(batch->first + batch->results.size()) /
+      const double share = static_cast<double>(item->number + 1) /
                            static_cast<double>(std::max<std::size_t>(1, count));
       request.progress(progress[0] + (progress[1] - progress[0]) * share);
     }
@@ -123,13 +118,12 @@ StoppedBy for_each_parallel(std::size_t count, const Request& request,
   arena.execute([&] {
     using oneapi::tbb::filter_mode;
     oneapi::tbb::parallel_pipeline(
-        kBatchesInFlight,
-        oneapi::tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order,
-                                                    first_of_batch) &
-            oneapi::tbb::make_filter<std::size_t, std::shared_ptr<Batch>>(
-                filter_mode::parallel, compute) &
-            oneapi::tbb::make_filter<std::shared_ptr<Batch>, void>(
-                filter_mode::serial_in_order, deliver));
+        kInFlight, oneapi::tbb::make_filter<void, std::size_t>(
+                       filter_mode::serial_in_order, number) &
+                       oneapi::tbb::make_filter<std::size_t, std::shared_ptr<Item>>(
+                           filter_mode::parallel, compute) &
+                       oneapi::tbb::make_filter<std::shared_ptr<Item>, void>(
+                           filter_mode::serial_in_order, deliver));
   });
   if (consumed == count || by != StoppedBy::Nothing) return by;
   return request.stop.stop_requested() ? StoppedBy::Request : StoppedBy::Seconds;

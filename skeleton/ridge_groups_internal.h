@@ -22,11 +22,12 @@ struct RidgeGroup {           // by node of the tree
   // Children have higher numbers than their parent.
   for (std::size_t i = groups.size(); i-- > 0;) {
     const Bvh::Node& node = tree.node(static_cast<std::uint32_t>(i));
-    groups[i].begins = i == 0;
+    groups[i].begins = true;
     if (node.count == 0) {
       sizes[i] = sizes[node.first] + sizes[node.first + 1];
+      groups[i].begins = sizes[i] <= largest;
       for (const std::uint32_t child : {node.first, node.first + 1}) {
-        groups[child].begins = sizes[i] > largest;
+        if (groups[i].begins) groups[child].begins = false;
         groups[i].highest = std::max(groups[i].highest, groups[child].highest);
       }
       continue;

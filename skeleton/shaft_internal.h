@@ -118,8 +118,8 @@ inline BoundedPlane plane_seen_from(const Point& origin, const Point& a, const P
   return plane;
 }
 
-/// The hull of a vertex and an edge, of two edges, or of an edge and a box: all segments
-/// between the two.
+/// The hull of a vertex and an edge, of two edges, of an edge and a box, or of two boxes:
+/// all segments between the two.
 class Shaft {
  public:
   /// How far the points of the first edge may be off, in each coordinate.
@@ -155,11 +155,7 @@ class Shaft {
   Shaft(const Point& p0, const Point& p1, const Box& box, const Pad& pad = {})
       : origin_(p0), pad_(pad) {
     std::array<Point, 10> points{p0, p1};
-    for (int c = 0; c < 8; ++c) {
-      for (int i = 0; i < 3; ++i) {
-        points[2 + c][i] = (c >> i & 1) != 0 ? box.max[i] : box.min[i];
-      }
-    }
+    for (int c = 0; c < 8; ++c) points[2 + c] = corner(box, c);
     const auto corners = bound(points);
     const Point& p = corners[1];
     const Point along = 0.5 * (corners[2] + corners[9] - p);
@@ -167,6 +163,16 @@ class Shaft {
     const Point n = p.cross(along);
     add_axis(n, corners);
     add_axis(n.cross(along), corners);
+  }
+
+  Shaft(const Box& from, const Box& to) : origin_(corner(from, 0)) {
+    std::array<Point, 16> points;
+    for (int c = 0; c < 8; ++c) {
+      points[c] = corner(from, c);
+      points[8 + c] = corner(to, c);
+    }
+    const auto corners = bound(points);
+    add_axes_across(corners[8] + corners[15] - corners[7], corners);
   }
 
   /// False proves that no point of the closed box lies in the closed hull.
@@ -199,6 +205,12 @@ class Shaft {
     Point direction;
     double min, max;
   };
+
+  [[nodiscard]] static Point corner(const Box& box, int c) {
+    Point p;
+    for (int i = 0; i < 3; ++i) p[i] = (c >> i & 1) != 0 ? box.max[i] : box.min[i];
+    return p;
+  }
 
   /// Returns the points relative to the origin.
   template <std::size_t N>
@@ -273,6 +285,18 @@ struct Shadow {
     return std::none_of(planes.begin(), planes.end(), [&](const BoundedPlane& p) {
       return p.offset + (p.normal[0] * x[0] + p.normal[1] * x[1] + p.normal[2] * x[2]) >
              0;
+    });
+  }
+  /// No point of the box with these corners, relative to the viewpoint, is inside, but
+  /// for rounding.
+  [[nodiscard]] bool beside(const std::array<double, 3>& low,
+                            const std::array<double, 3>& high) const {
+    return std::any_of(planes.begin(), planes.end(), [&](const BoundedPlane& p) {
+      double least = p.offset;
+      for (int i = 0; i < 3; ++i) {
+        least += std::min(p.normal[i] * low[i], p.normal[i] * high[i]);
+      }
+      return least > 0;
     });
   }
   /// Of the box with these corners, relative to the viewpoint.

@@ -75,9 +75,7 @@ void Generators::find_stars() {
                             wedges.push_back({c[k], c[(k + 1) % n], s.faces()[f].facet});
                           }
                         });
-    std::sort(star.facets.begin(), star.facets.end());
-    star.facets.erase(std::unique(star.facets.begin(), star.facets.end()),
-                      star.facets.end());
+    sort_unique(star.facets);
     const auto ray = [&](std::int32_t far) {
       for (std::size_t r = 0; r < star.rays.size(); ++r) {
         if (star.rays[r] == far ||
@@ -113,7 +111,5 @@ void Generators::find_stars() {
     stars_.push_back(std::move(star));
   }
 }
-
-// Ridges in order of one coordinate of their directions, which parallel ones share.
 
 }  // namespace sightline::internal

@@ -25,19 +25,18 @@ bool contains(std::span<const std::int32_t> sorted, std::int32_t x) {
 
 // All that may hide some of the edge, from front to back; true once all of it is hidden.
 bool VertexViewer::add_blockers(Pair& pair) {
-  if (!between_.listed()) between_.list(at_, at_, group_);
   const auto hides_all = [&](int face) {
     add_blocker(pair, face);
     if (!pair.closed.covers_all()) return false;
     occluders_.remember(face);
     return true;
   };
-  return between_.any_of(pair.triangle, [&](std::int32_t blocker) {
-    pair.blockers.push_back(blocker);
+  return around_.between().any_of(pair.triangle, [&](std::int32_t blocker) {
+    pair.lists.blockers.push_back(blocker);
     if (blocker < 0) return hides_all(~blocker);
     // A line that supports a convex solid does not meet it elsewhere.
     if (blocker == pair.edge->object || contains(own_objects_, blocker)) return false;
-    const auto facing = facing_.of(blocker);
+    const auto facing = around_.facing(blocker);
     return std::any_of(facing.begin(), facing.end(), [&](int face) {
       return pair.triangle.may_meet(g_.face_box(face)) && hides_all(face);
     });
@@ -48,9 +47,9 @@ void VertexViewer::list_faces(Pair& pair) const {
   if (pair.listed) return;
   pair.listed = true;
   const auto add = [&](int face) {
-    if (pair.triangle.may_meet(g_.face_box(face))) pair.faces.push_back(face);
+    if (pair.triangle.may_meet(g_.face_box(face))) pair.lists.faces.push_back(face);
   };
-  for (const std::int32_t blocker : pair.blockers) {
+  for (const std::int32_t blocker : pair.lists.blockers) {
     if (blocker < 0) {
       add(~blocker);
     } else {
@@ -63,9 +62,9 @@ void VertexViewer::list_faces(Pair& pair) const {
 // part of the edge within its two ends' directions and behind the face's plane.
 void VertexViewer::add_blocker(Pair& pair, int face) {
   const Face& f = scene_.faces()[face];
-  if (facet_stamp_[f.facet] == stamp_) return;
-  if (std::find(pair.edge_facets.begin(), pair.edge_facets.end(), f.facet) !=
-      pair.edge_facets.end()) {
+  if (at_viewpoint(f.facet)) return;
+  if (std::find(pair.lists.edge_facets.begin(), pair.lists.edge_facets.end(), f.facet) !=
+      pair.lists.edge_facets.end()) {
     return;
   }
   if (g_.convex_solid(f.object) &&
@@ -165,7 +164,7 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
         // A side of a face at the viewpoint: its plane is that face's.
         for (const Edge::Side& s : scene_.edges()[edge].sides) {
           const int facet = scene_.faces()[s.face].facet;
-          if (facet_stamp_[facet] != stamp_) continue;
+          if (!at_viewpoint(facet)) continue;
           cut.kind = CutKind::Support;
           cut.feature = facet;
         }
@@ -240,7 +239,7 @@ bool VertexViewer::touching_across(const Pair& pair) const {
     break;
   }
   std::vector<Sign> signs;
-  for (const int face : pair.faces) {
+  for (const int face : pair.lists.faces) {
     const Face& f = scene_.faces()[face];
     const auto corners = scene_.face_points(face);
     bool front = false;
@@ -263,9 +262,9 @@ bool VertexViewer::touching_across(const Pair& pair) const {
       (solid == Sign::Positive ? above : below).push_back(face);
       continue;
     }
-    if (facet_stamp_[f.facet] == stamp_ || continues_across(face, signs) ||
-        std::find(pair.edge_facets.begin(), pair.edge_facets.end(), f.facet) !=
-            pair.edge_facets.end()) {
+    if (at_viewpoint(f.facet) || continues_across(face, signs) ||
+        std::find(pair.lists.edge_facets.begin(), pair.lists.edge_facets.end(),
+                  f.facet) != pair.lists.edge_facets.end()) {
       continue;
     }
     (front ? above : below).push_back(face);
@@ -343,7 +342,7 @@ void VertexViewer::add_unsupported_convex(Pair& pair) {
     }
     if (empty) continue;
     if (inside == Sign::Positive && g_.polygon()) {
-      pair.ending.push_back({from, to});  // seen from outside: the line ends here
+      pair.lists.ending.push_back({from, to});  // seen from outside: the line ends here
     } else {
       pair.close(from, to);
     }
@@ -423,12 +422,12 @@ void VertexViewer::add_unsupported_general(Pair& pair) {
         pair.close(from, to);
       } else if (!gap && g_.polygon()) {
         const bool goes_on =
-            !pair.ending.empty() &&
-            compare(scene_, line, pair.ending.back().to, from) == Sign::Zero;
+            !pair.lists.ending.empty() &&
+            compare(scene_, line, pair.lists.ending.back().to, from) == Sign::Zero;
         if (goes_on) {
-          pair.ending.back().to = to;
+          pair.lists.ending.back().to = to;
         } else {
-          pair.ending.push_back({from, to});
+          pair.lists.ending.push_back({from, to});
         }
       }
     }

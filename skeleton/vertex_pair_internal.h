@@ -11,6 +11,25 @@
 
 namespace sightline::internal {
 
+/// Lists of a pair, kept from one to the next for their memory.
+struct VertexViewer::PairLists {
+  std::vector<Cut> cuts;
+  std::vector<std::int32_t> blockers;  // whose boxes may meet the triangle
+  std::vector<std::int32_t> faces;     // the same: once they are listed
+  std::vector<std::int32_t> edge_facets;
+  std::vector<CutInterval> ending;       // polygon mode: the viewpoint is one
+  std::vector<std::uint8_t> piece_ends;  // of each piece of the open part, so split
+
+  void clear() {
+    cuts.clear();
+    blockers.clear();
+    faces.clear();
+    edge_facets.clear();
+    ending.clear();
+    piece_ends.clear();
+  }
+};
+
 struct VertexViewer::Pair {
   int ridge;
   const Ridge* r;
@@ -20,23 +39,18 @@ struct VertexViewer::Pair {
   PlaneSide plane;  // of the viewpoint and the edge
   Shaft triangle;
   CutUnion closed;  // where the edge is hidden or the viewpoint does not support
-  std::vector<Cut> cuts{};
-  std::vector<std::int32_t> blockers{};  // whose boxes may meet the triangle
-  std::vector<std::int32_t> faces{};     // the same: once they are listed
-  bool listed = false;
-  std::vector<std::int32_t> edge_facets{};
+  PairLists& lists;
+  bool listed = false;      // the faces are
   bool mild = false;        // some sign is zero: ends need their contacts listed
   bool degenerate = false;  // stretches need the general contact test
   bool edge_ends = false;   // polygon mode: the edge is an end contact
   // Polygon mode: the lines lie in the plane of a face that both are on; those that end
   // there are left out.
   bool share_facet = false;
-  std::vector<CutInterval> ending{};       // polygon mode: the viewpoint is one
-  std::vector<std::uint8_t> piece_ends{};  // of each piece of the open part, so split
 
   void close(const Cut& from, const Cut& to) { closed.add(from, to); }
   Cut keep(const Cut& cut) {
-    cuts.push_back(cut);
+    lists.cuts.push_back(cut);
     return cut;
   }
 };

@@ -149,32 +149,33 @@ StarContact star_contact(const Scene& scene, const Star& star, const Point& x) {
 }
 
 VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
-                           const SkeletonLines* lines, double feature_size)
+                           const SkeletonLines* lines, double feature_size,
+                           Surroundings& around)
     : g_(generators),
       scene_(generators.scene()),
       part_(part),
       lines_(lines),
       feature_size_(feature_size),
-      facet_stamp_(scene_.facets().size(), 0),
       occluders_(generators),
       probe_(generators),
-      between_(generators),
-      facing_(generators) {}
+      around_(around),
+      lists_(std::make_unique<PairLists>()) {}
 
-void VertexViewer::prepare(int star) {
+VertexViewer::~VertexViewer() = default;
+
+void VertexViewer::begin(int star) {
+  out_ = {};
   star_id_ = star;
   wanted_ = part_.wanted(star);
   star_ = &g_.stars()[star];
   point_ = star_->point;
   at_ = scene_.point(point_);
-  ++stamp_;
-  std::vector<std::int32_t> facets;
-  for (const int f : star_->faces) facets.push_back(scene_.faces()[f].facet);
-  for (const int f : facets) facet_stamp_[f] = stamp_;
+  own_facets_.clear();
+  for (const int f : star_->faces) own_facets_.push_back(scene_.faces()[f].facet);
+  sort_unique(own_facets_);
   const auto objects = g_.objects_at(point_);
   own_objects_.assign(objects.begin(), objects.end());
-  occluders_.begin(std::span(&at_, 1), own_objects_, facets);
-  facing_.begin(std::span(&at_, 1));
+  occluders_.begin(std::span(&at_, 1), own_objects_, own_facets_);
   star_planes_.clear();
   if (star_->convex) {
     for (const int f : star_->faces) {
@@ -182,6 +183,10 @@ void VertexViewer::prepare(int star) {
       star_planes_.push_back(plane_seen_from(at_, a, b, c));
     }
   }
+}
+
+bool VertexViewer::at_viewpoint(int facet) const {
+  return std::binary_search(own_facets_.begin(), own_facets_.end(), facet);
 }
 
 bool VertexViewer::hidden(const Box& box) {
@@ -203,11 +208,37 @@ bool VertexViewer::hidden(const Box& box) {
   return occluders_.hider(box) >= 0;
 }
 
-VertexView VertexViewer::view(int star) {
-  VertexView out;
-  prepare(star);
-  if (g_.inside_solid(star)) return out;
-  visit_ridges(out);
+bool VertexViewer::may_view(std::uint32_t node) {
+  return part_.has_below(node, wanted_) &&
+         (star_->in_plane_only || !hidden(g_.ridge_tree().node(node).box));
+}
+
+void VertexViewer::view_group(std::uint32_t group) {
+  const Bvh& tree = g_.ridge_tree();
+  occluders_.look_at(tree.node(group).box);
+  std::uint32_t stack[128];
+  int top = 0;
+  stack[top++] = group;
+  while (top > 0) {
+    const std::uint32_t at = stack[--top];
+    if (at != group && !may_view(at)) continue;
+    const Bvh::Node& node = tree.node(at);
+    if (node.count == 0) {
+      stack[top++] = node.first + 1;
+      stack[top++] = node.first;
+      continue;
+    }
+    for (std::uint32_t i = 0; i < node.count; ++i) {
+      if (g_.ridge_sides(node.first + i).never_touched_from(at_)) continue;
+      view_ridge(static_cast<int>(tree.items()[node.first + i]), out_);
+    }
+  }
+  occluders_.look_away();
+}
+
+VertexView VertexViewer::finish() {
+  VertexView out = std::move(out_);
+  out.sort_arcs();
   if (feature_size_ > 0) drop_short_arcs(out);
   if (part_.by_lines) drop_arcs_off_source(out);
   add_line_ups(out);
@@ -219,35 +250,6 @@ VertexView VertexViewer::view(int star) {
   out.intervals = {};
   out.positions = {};
   return out;
-}
-
-void VertexViewer::visit_ridges(VertexView& out) {
-  const Bvh& tree = g_.ridge_tree();
-  if (tree.empty()) return;
-  std::uint32_t stack[128];
-  int top = 0;
-  stack[top++] = 0;
-  std::vector<int> found;
-  while (top > 0) {
-    const std::uint32_t at = stack[--top];
-    if (!part_.has_below(at, wanted_)) continue;
-    const Bvh::Node& node = tree.node(at);
-    if (!star_->in_plane_only && hidden(node.box)) continue;
-    if (g_.ridge_group(at).begins) {
-      group_ = node.box;
-      between_.forget();
-    }
-    if (node.count == 0) {
-      stack[top++] = node.first + 1;
-      stack[top++] = node.first;
-      continue;
-    }
-    for (std::uint32_t i = 0; i < node.count; ++i) {
-      if (g_.ridge_sides(node.first + i).never_touched_from(at_)) continue;
-      view_ridge(static_cast<int>(tree.items()[node.first + i]), out);
-    }
-  }
-  out.sort_arcs();
 }
 
 void VertexViewer::drop_short_arcs(VertexView& out) {
@@ -304,6 +306,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   if (own_solid) return;
   if (collinear(at_, e0, e1)) return;  // along the edge: no family of lines
 
+  lists_->clear();
   Pair pair{ridge,
             &r,
             &edge,
@@ -311,9 +314,10 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
             e1,
             PlaneSide({at_, e0, e1}),
             Shaft(at_, e0, e1),
-            CutUnion(scene_, {e0, e1})};
+            CutUnion(scene_, {e0, e1}),
+            *lists_};
   for (const Edge::Side& side : edge.sides) {
-    pair.edge_facets.push_back(scene_.faces()[side.face].facet);
+    pair.lists.edge_facets.push_back(scene_.faces()[side.face].facet);
   }
   pair.mild = a == Sign::Zero || b == Sign::Zero;
   pair.degenerate = r.touched || star_->in_plane_only;
@@ -335,11 +339,11 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   if (pair.mild || pair.degenerate) list_faces(pair);
   pair.degenerate = pair.degenerate || (pair.mild && touching_across(pair));
   if (pair.degenerate) {
-    add_degenerate_pair(g_, *star_, r, pair.plane, pair.closed, pair.ending, pair.faces,
-                        out);
+    add_degenerate_pair(g_, *star_, r, pair.plane, pair.closed, pair.lists.ending,
+                        pair.lists.faces, out);
     return;
   }
-  if (!pair.ending.empty()) split_at_ends(pair, open);
+  if (!pair.lists.ending.empty()) split_at_ends(pair, open);
   const bool mild = pair.mild || !ends_are_simple(pair, open);
   if (mild) list_faces(pair);
   const bool self = own_objects_ == r.objects && own_objects_.size() == 1;
@@ -349,16 +353,17 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     arc.vertex = point_;
     arc.edge = r.edge;
     arc.self = self;
-    arc.ends = {!pair.piece_ends.empty() && pair.piece_ends[k] != 0, pair.edge_ends};
+    arc.ends = {!pair.lists.piece_ends.empty() && pair.lists.piece_ends[k] != 0,
+                pair.edge_ends};
     arc.range = {rounded_parameter(scene_, {pair.e0, pair.e1}, i.from),
                  rounded_parameter(scene_, {pair.e0, pair.e1}, i.to)};
     const auto node = [&](const Cut& cut) {
-      return mild ? contact_node(g_, *star_, r, pair.faces, cut, arc.ends, out)
+      return mild ? contact_node(g_, *star_, r, pair.lists.faces, cut, arc.ends, out)
                   : end_node(pair, cut, arc.ends, out);
     };
     if (pair.share_facet && arc.ends[0]) continue;
     // Where the kind of contact changes, one line ends two arcs.
-    const bool goes_on = k > 0 && !pair.share_facet && !pair.piece_ends.empty() &&
+    const bool goes_on = k > 0 && !pair.share_facet && !pair.lists.piece_ends.empty() &&
                          compare(scene_, {e0, e1}, open[k - 1].to, i.from) == Sign::Zero;
     const std::uint32_t first = goes_on ? out.arcs.back().nodes[1] : node(i.from);
     arc.nodes = {first, node(i.to)};
@@ -378,21 +383,21 @@ void VertexViewer::split_at_ends(Pair& pair, std::vector<CutInterval>& open) con
   std::vector<CutInterval> pieces;
   for (const CutInterval& i : open) {
     Cut at = i.from;
-    for (const CutInterval& e : pair.ending) {  // in order, apart
+    for (const CutInterval& e : pair.lists.ending) {  // in order, apart
       const Cut& from = before(at, e.from) ? e.from : at;
       const Cut& to = before(e.to, i.to) ? e.to : i.to;
       if (!before(from, to)) continue;
       if (before(at, from)) {
         pieces.push_back({at, from});
-        pair.piece_ends.push_back(0);
+        pair.lists.piece_ends.push_back(0);
       }
       pieces.push_back({from, to});
-      pair.piece_ends.push_back(1);
+      pair.lists.piece_ends.push_back(1);
       at = to;
     }
     if (!before(at, i.to)) continue;
     pieces.push_back({at, i.to});
-    pair.piece_ends.push_back(0);
+    pair.lists.piece_ends.push_back(0);
   }
   open = std::move(pieces);
 }
@@ -412,12 +417,15 @@ bool VertexViewer::ends_are_simple(const Pair& pair,
   const auto simple = [&](const Cut& end) {
     if (end.kind == CutKind::Start || end.kind == CutKind::End) return true;
     if (end.kind == CutKind::Side && end.feature < 0) return false;
-    return std::none_of(pair.cuts.begin(), pair.cuts.end(), [&](const Cut& other) {
-      if (other.hi < end.lo || other.lo > end.hi) return false;
-      if (other.plane == end.plane && other.exact == end.exact) return false;
-      if (other.kind == end.kind && other.feature == end.feature) return false;
-      return compare(scene_, line, other, end) == Sign::Zero;
-    });
+    return std::none_of(pair.lists.cuts.begin(), pair.lists.cuts.end(),
+                        [&](const Cut& other) {
+                          if (other.hi < end.lo || other.lo > end.hi) return false;
+                          if (other.plane == end.plane && other.exact == end.exact)
+                            return false;
+                          if (other.kind == end.kind && other.feature == end.feature)
+                            return false;
+                          return compare(scene_, line, other, end) == Sign::Zero;
+                        });
   };
   return std::all_of(open.begin(), open.end(), [&](const CutInterval& i) {
     return simple(i.from) && simple(i.to);

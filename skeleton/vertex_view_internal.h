@@ -5,12 +5,11 @@
 
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <span>
 #include <vector>
 
-#include "skeleton/blocker_list_internal.h"
 #include "skeleton/edge_cuts_internal.h"
-#include "skeleton/facing_faces_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/line_probe_internal.h"
 #include "skeleton/occluders_internal.h"
@@ -18,6 +17,7 @@
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
+#include "skeleton/surroundings_internal.h"
 
 namespace sightline::internal {
 
@@ -67,19 +67,30 @@ enum class StarContact : std::uint8_t { Grazes, Blocked, Degenerate };
 class VertexViewer {
  public:
   /// Keeps references; `lines` may be null unless part.by_lines.  Arcs on a stretch of
-  /// their edge shorter than `feature_size` are left out, and listed.
+  /// their edge shorter than `feature_size` are left out, and listed.  `around` is kept
+  /// by whoever asks for views: of corners that include the viewpoint, and at the group.
   VertexViewer(const Generators& generators, const EvPart& part,
-               const SkeletonLines* lines, double feature_size);
+               const SkeletonLines* lines, double feature_size, Surroundings& around);
 
-  /// The view of stars()[star]: every arc of its point with a ridge of the part.
-  [[nodiscard]] VertexView view(int star);
+  ~VertexViewer();
+
+  /// Looks from stars()[star] from now on.
+  void begin(int star);
+  /// False proves that no ridge below this node of the ridge tree has an arc.  Nodes are
+  /// asked from outer to inner ones.
+  [[nodiscard]] bool may_view(std::uint32_t node);
+  /// Finds the arcs with the ridges below a node, which are a group.
+  void view_group(std::uint32_t node);
+  /// Every arc of the star's point with a ridge of the part, after all groups of the tree
+  /// that may be viewed.
+  [[nodiscard]] VertexView finish();
 
  private:
   struct Pair;  // one vertex and one ridge
+  struct PairLists;
 
-  void prepare(int star);
   [[nodiscard]] bool hidden(const Box& box);
-  void visit_ridges(VertexView& out);
+  [[nodiscard]] bool at_viewpoint(int facet) const;
   void drop_short_arcs(VertexView& out);
   void drop_arcs_off_source(VertexView& out);
   void view_ridge(int ridge, VertexView& out);
@@ -116,15 +127,13 @@ class VertexViewer {
   const Star* star_ = nullptr;
   int point_ = -1;
   Point at_;
-  std::vector<std::uint32_t> facet_stamp_;  // == stamp_: facet at the viewpoint
-  std::uint32_t stamp_ = 0;
-  std::vector<std::int32_t> own_objects_;
+  std::vector<std::int32_t> own_objects_, own_facets_;  // ascending
   Occluders occluders_;
   std::vector<BoundedPlane> star_planes_;
   LineProbe probe_;
-  Box group_;  // at hand
-  BlockerList between_;
-  FacingFaces facing_;
+  Surroundings& around_;
+  std::unique_ptr<PairLists> lists_;
+  VertexView out_;
 };
 
 }  // namespace sightline::internal

@@ -146,7 +146,7 @@ TEST(BlockerList, TellsAllThatMayBeInTheWay) {
       const Box group = box_of(corners);
       list.forget();
       EXPECT_FALSE(list.listed());
-      list.list(at, at, group);
+      list.list({at, at, group}, centre(group) - at);
       EXPECT_TRUE(list.listed());
       too_many |= list.size() > 512;
       Point e0, e1;

@@ -65,8 +65,9 @@ Hidden check_hidden(const PolygonSoup& soup, std::size_t step,
     for (std::size_t j = 0; j < ridges.size(); j += other_step) {
       if (j == i) continue;
       const auto last = ends_of(scene, ridges[j]);
-      view.look_at(box_of(last));
+      view.look_at(box_of(last), view.pieces());
       const bool open = view.look(view.pieces(), last[0], last[1], parts, faces);
+      view.look_away();
       EXPECT_EQ(open, std::any_of(parts.begin(), parts.end(),
                                   [](const auto& part) { return part.hidden_by < 0; }));
       EXPECT_EQ(parts.front().from, 0);
@@ -83,6 +84,9 @@ Hidden check_hidden(const PolygonSoup& soup, std::size_t step,
       if (node.count == 0) continue;
       const bool hidden = view.hides(node.box);
       count.groups += hidden ? 1 : 0;
+      view.look_at(node.box, view.pieces());
+      EXPECT_EQ(view.hides(node.box), hidden) << "only what hides nothing is not asked";
+      view.look_away();
       const EdgeView::Pieces open = view.open(view.pieces(), node.box);
       count.piece_groups += pieces - std::popcount(open);
       for (std::uint32_t k = 0; k < node.count; ++k) {
@@ -267,7 +271,7 @@ TEST(EdgeView, WhatTouchesAnOccluderAllAlongIsNotHidden) {
     for (std::size_t i = 0; i < g.ridges().size(); ++i) {
       if (ends_of(scene, g.ridges()[i]) != first) continue;
       view.begin(static_cast<int>(i));
-      view.look_at(box_of(last));
+      view.look_at(box_of(last), view.pieces());
       return !view.look(view.pieces(), last[0], last[1], parts, faces);
     }
     ADD_FAILURE() << "no such edge";

@@ -1,0 +1,112 @@
+// One node for each line: told apart by what determines lines, whatever way they are
+// told.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <tuple>
+#include <vector>
+
+#include "skeleton/node_joiner_internal.h"
+#include "tests/support/generators.h"
+
+namespace sightline::internal {
+namespace {
+
+using Generators = std::vector<Generator>;
+
+Generator vertex(int id) { return {GeneratorKind::Vertex, id}; }
+Generator edge(int id) { return {GeneratorKind::Edge, id}; }
+Generator facet(int id) { return {GeneratorKind::Face, id}; }
+
+SkeletonNode node(NodeKind kind, bool end = false, bool second = false) {
+  SkeletonNode n;
+  n.kind = kind;
+  n.end = end;
+  n.second = second;
+  return n;
+}
+
+TEST(NodeJoiner, ToldFromEitherEndALineIsOneNode) {
+  Skeleton skeleton;
+  NodeJoiner nodes(skeleton);
+  const auto vv = nodes.join(node(NodeKind::VV), Generators{vertex(7), vertex(3)}, true);
+  EXPECT_EQ(nodes.join(node(NodeKind::VV), Generators{vertex(3), vertex(7)}, true), vv);
+  EXPECT_EQ(skeleton.generators(skeleton.nodes[vv]).front(), vertex(3));
+  const Generators many{edge(1), edge(5), vertex(2), edge(9), edge(4)};
+  const auto degenerate = nodes.join(node(NodeKind::Degenerate), many, true);
+  EXPECT_EQ(nodes.join(node(NodeKind::Degenerate), Generators(many.rbegin(), many.rend()),
+                       true),
+            degenerate);
+  const auto fve =
+      nodes.join(node(NodeKind::FvE), Generators{vertex(1), facet(2), edge(3)}, true);
+  EXPECT_EQ(
+      nodes.join(node(NodeKind::FvE), Generators{vertex(1), edge(3), facet(2)}, true),
+      fve);
+  EXPECT_EQ(skeleton.nodes.size(), 3U);
+}
+
+TEST(NodeJoiner, LinesOfOtherGeneratorsOrKindsAreOtherNodes) {
+  Skeleton skeleton;
+  NodeJoiner nodes(skeleton);
+  const Generators vee{vertex(1), edge(2), edge(3)};
+  const auto first = nodes.join(node(NodeKind::VEE), vee, true);
+  EXPECT_NE(
+      nodes.join(node(NodeKind::VEE), Generators{vertex(1), edge(3), edge(2)}, true),
+      first);
+  EXPECT_NE(nodes.join(node(NodeKind::EVE), vee, true), first);
+  EXPECT_NE(nodes.join(node(NodeKind::VEE), Generators{edge(1), edge(2), edge(3)}, true),
+            first);
+  const Generators four{edge(1), edge(2), edge(3), edge(4)};
+  EXPECT_NE(nodes.join(node(NodeKind::EEEE, false, false), four, true),
+            nodes.join(node(NodeKind::EEEE, false, true), four, true));
+  const Generators pair{vertex(1), vertex(2)};
+  EXPECT_NE(nodes.join(node(NodeKind::VV, false), pair, true),
+            nodes.join(node(NodeKind::VV, true), pair, true));
+  EXPECT_EQ(nodes.join(node(NodeKind::VEE), vee, true), first);
+}
+
+// Against a map, with so few ids that most are found again and many share a hash bucket.
+TEST(NodeJoiner, NumbersAreThoseOfAMap) {
+  Skeleton skeleton;
+  NodeJoiner nodes(skeleton);
+  std::map<std::tuple<int, bool, Generators>, std::uint32_t> known;
+  testing::Random random(1);
+  std::vector<std::pair<SkeletonNode, Generators>> asked;
+  for (int i = 0; i < 60000; ++i) {
+    const bool third = random.one_in(3);
+    const NodeKind kind = third ? NodeKind::VEE : NodeKind::FEE;
+    const auto id = [&] { return random.integer(0, 30); };
+    asked.push_back(
+        {node(kind), {third ? vertex(id()) : facet(id()), edge(id()), edge(id())}});
+  }
+  nodes.join_each(
+      asked.size(),
+      [&](std::size_t i) {
+        return std::pair(asked[i].first.kind,
+                         std::span<const Generator>(asked[i].second));
+      },
+      [&](std::size_t i) {
+        const auto& [n, generators] = asked[i];
+        const auto number = nodes.join(n, generators, true);
+        const auto key = std::tuple(static_cast<int>(n.kind), n.second, generators);
+        const auto [at, is_new] =
+            known.try_emplace(key, static_cast<std::uint32_t>(known.size()));
+        EXPECT_EQ(number, at->second);
+      });
+  EXPECT_EQ(skeleton.nodes.size(), known.size());
+  EXPECT_LT(known.size(), asked.size() * 9 / 10);
+}
+
+TEST(NodeJoiner, WhatWasForgottenIsNew) {
+  Skeleton skeleton;
+  NodeJoiner nodes(skeleton);
+  const Generators four{edge(1), edge(2), edge(3), edge(4)};
+  const auto first = nodes.join(node(NodeKind::EEEE), four, true);
+  EXPECT_EQ(nodes.join(node(NodeKind::EEEE), four, true), first);
+  nodes.forget_eeee();
+  EXPECT_NE(nodes.join(node(NodeKind::EEEE), four, true), first);
+}
+
+}  // namespace
+}  // namespace sightline::internal
