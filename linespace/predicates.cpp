@@ -106,8 +106,7 @@ std::optional<Sign> double_orient3d(const Point3& a, const Point3& b, const Poin
 }
 
 Ball ball_orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
-  return dot(ball_difference(d, a),
-             cross(ball_difference(b, a), ball_difference(c, a)));
+  return dot(ball_difference(d, a), cross(ball_difference(b, a), ball_difference(c, a)));
 }
 
 std::optional<Sign> interval_orient3d(const Point3& a, const Point3& b, const Point3& c,

@@ -5,7 +5,8 @@
 namespace sightline::internal {
 namespace {
 
-// Speed only: more keep more in the cache than they save.
+// Speed only: what is between is listed so many times less often, and a stop or a budget
+// waits for so many views.
 constexpr std::size_t kTogether = 8;
 
 }  // namespace

@@ -1,6 +1,5 @@
 // The views of corners that are near each other, group by group of edges: what is between
-// a group and one of them is mostly what is between it and the others, and read from
-// memory once.
+// a group and one of them is mostly what is between it and the others, and listed once.
 
 #pragma once
 

@@ -92,14 +92,6 @@ bool EdgePairs::share_facet(const Ridge& a, const Ridge& b) {
   return share(a.all_facets, b.all_facets);
 }
 
-EdgePairs::PlaneValues EdgePairs::values(const PlaneSide& plane, const Point& p0,
-                                         const Point& p1) const {
-  PlaneValues v{plane.value(p0), plane.value(p1), {}, {}};
-  v.sign0 = sign_of(v.at0, plane, p0);
-  v.sign1 = sign_of(v.at1, plane, p1);
-  return v;
-}
-
 void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   const Ridge& r = g_.ridges()[i];
   const Ridge& s = g_.ridges()[j];
@@ -118,11 +110,11 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
            v[0].sign0 == v[1].sign0 && v[0].sign0 != Sign::Zero &&
            ridge.contact(v[0].sign0, v[0].sign0) == EdgeContact::None;
   };
-  outer.first_planes = {values(r.a, q0, q1), values(r.b, q0, q1)};
+  outer.first_planes = {plane_values(r.a, q0, q1), plane_values(r.b, q0, q1)};
   if (never_touches(r, outer.first_planes)) return;
   const Point& p0 = view_.end(0);
   const Point& p1 = view_.end(1);
-  outer.last_planes = {values(s.a, p0, p1), values(s.b, p0, p1)};
+  outer.last_planes = {plane_values(s.a, p0, p1), plane_values(s.b, p0, p1)};
   if (never_touches(s, outer.last_planes)) return;
   if (share_facet(r, s)) return;
   if (view_.hides(q0, q1)) return;
@@ -235,15 +227,14 @@ bool EdgePairs::enters_only(int face) const {
 }
 
 // The face's plane along the first and the last edge.
-const std::array<EdgePairs::PlaneValues, 2>& EdgePairs::planes_of(const Outer& outer,
-                                                                  int face) {
+const std::array<PlaneValues, 2>& EdgePairs::planes_of(const Outer& outer, int face) {
   auto& both = face_planes_[face];
   if (face_stamp_[face] != pair_stamp_) {
     face_stamp_[face] = pair_stamp_;
     const PlaneSide& plane = g_.face_plane(face);
     const auto& o = outer.points;
-    both = {values(plane, o.at(o.p[0]), o.at(o.p[1])),
-            values(plane, o.at(o.q[0]), o.at(o.q[1]))};
+    both = {plane_values(plane, o.at(o.p[0]), o.at(o.p[1])),
+            plane_values(plane, o.at(o.q[0]), o.at(o.q[1]))};
   }
   return both;
 }
@@ -263,7 +254,7 @@ const BoundedLinear& EdgePairs::beside_last(const Outer& outer, int point) {
     point_stamp_[point] = pair_stamp_;
     const auto& o = outer.points;
     const PlaneSide plane({o.at(o.q[0]), o.at(o.q[1]), o.at(point)});
-    const auto v = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+    const auto v = plane_values(plane, o.at(o.p[0]), o.at(o.p[1]));
     l = {v.at0.value, v.at1.value, v.at0.error, v.at1.error, v.sign0, v.sign1};
   }
   return l;
@@ -367,13 +358,13 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
     const PlaneSide& plane = g_.face_plane(face);
     const std::array<std::int32_t, 3> points = plane_points(scene_, face);
     const int facet = scene_.faces()[face].facet;
-    const PlaneValues p = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+    const PlaneValues p = plane_values(plane, o.at(o.p[0]), o.at(o.p[1]));
     if (p.sign0 == -p.sign1 && p.sign0 != Sign::Zero) {
       CurveCut cut{CurveCutKind::OnPlane, false, facet, points, 0, 1};
       enclose_root({p.at0.value, p.at1.value, p.at0.error, p.at1.error, {}, {}}, cut);
       add(cut);
     }
-    const PlaneValues q = values(plane, o.at(o.q[0]), o.at(o.q[1]));
+    const PlaneValues q = plane_values(plane, o.at(o.q[0]), o.at(o.q[1]));
     if (q.sign0 == -q.sign1 && q.sign0 != Sign::Zero) {
       const BoundedLinear l = curve.at_last_edge(q.at0, q.at1, points);
       if (l.sign0 == -l.sign1 && l.sign0 != Sign::Zero) {
@@ -514,9 +505,9 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
   const std::array<std::int32_t, 3> middle_planes[2] = {
       {middle.points[1], middle.points[0], middle.thirds[0]},
       {middle.points[0], middle.points[1], middle.thirds[1]}};
-  add(linear(values(middle.a, o.at(o.p[0]), o.at(o.p[1]))), CurveCutKind::OnPlane,
+  add(linear(plane_values(middle.a, o.at(o.p[0]), o.at(o.p[1]))), CurveCutKind::OnPlane,
       middle.facets[0], middle_planes[0], false);
-  add(linear(values(middle.b, o.at(o.p[0]), o.at(o.p[1]))), CurveCutKind::OnPlane,
+  add(linear(plane_values(middle.b, o.at(o.p[0]), o.at(o.p[1]))), CurveCutKind::OnPlane,
       middle.facets[1], middle_planes[1], false);
   if (same_everywhere(constraints_[4], constraints_[5])) return;
   const Ridge& last = g_.ridges()[outer.last];

@@ -16,6 +16,7 @@
 #include "skeleton/line_probe_internal.h"
 #include "skeleton/pair_cells_internal.h"
 #include "skeleton/part_internal.h"
+#include "skeleton/plane_values_internal.h"
 #include "skeleton/shaft_internal.h"
 #include "skeleton/skeleton.h"
 
@@ -53,10 +54,6 @@ class EdgePairs {
   void visit(int i, const std::function<bool()>& stop, std::vector<FoundArc>& out);
 
  private:
-  struct PlaneValues {
-    BoundedValue at0, at1;
-    Sign sign0, sign1;
-  };
   struct Outer {  // one order of the two edges
     OuterPair points;
     int first, last;  // ridges
@@ -113,8 +110,6 @@ class EdgePairs {
                                       const CurveCut& cut, const FoundNode& node);
   [[nodiscard]] bool skips(const Outer& outer, const Ridge& middle, int face) const;
 
-  [[nodiscard]] PlaneValues values(const PlaneSide& plane, const Point& p0,
-                                   const Point& p1) const;
   [[nodiscard]] const BoundedForm& form_of(const Outer& outer, int carrier);
   [[nodiscard]] const BoundedLinear& beside_last(const Outer& outer, int point);
 

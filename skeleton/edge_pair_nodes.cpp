@@ -47,14 +47,14 @@ bool EdgePairs::ends_at_corner(const Outer& outer, const EeeCurve& curve,
   return std::all_of(star.faces.begin(), star.faces.end(), [&](int face) {
     const PlaneSide& plane = g_.face_plane(face);
     if (cut.kind != CurveCutKind::Far) {
-      const PlaneValues q = values(plane, o.at(o.q[0]), o.at(o.q[1]));
+      const PlaneValues q = plane_values(plane, o.at(o.q[0]), o.at(o.q[1]));
       if (q.sign0 == q.sign1) return q.sign0 == Sign::Positive;
       // Times F0 - F1, which has the sign of F0.
       const BoundedLinear l =
           curve.at_last_edge(q.at0, q.at1, plane_points(scene_, face));
       return (cut.kind == CurveCutKind::Start ? l.sign0 : l.sign1) * f0 == Sign::Positive;
     }
-    const PlaneValues p = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+    const PlaneValues p = plane_values(plane, o.at(o.p[0]), o.at(o.p[1]));
     if (p.sign0 == p.sign1) return p.sign0 == Sign::Positive;
     if (p.sign0 == Sign::Zero) return p.sign1 == Sign::Positive;
     if (p.sign1 == Sign::Zero) return p.sign0 == Sign::Positive;
@@ -228,7 +228,7 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
           const PlaneSide plane(
               {scene_.point(w), scene_.point(m[0]), scene_.point(m[1])});
           const auto& o = outer.points;
-          const PlaneValues v = values(plane, o.at(o.p[0]), o.at(o.p[1]));
+          const PlaneValues v = plane_values(plane, o.at(o.p[0]), o.at(o.p[1]));
           l = {v.at0.value, v.at1.value, v.at0.error, v.at1.error, v.sign0, v.sign1};
         } else {
           l = beside_last(outer, w);

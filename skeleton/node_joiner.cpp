@@ -2,16 +2,14 @@
 #include <utility>
 
 #include "skeleton/large_arrays_internal.h"
-
 #include "skeleton/node_joiner_internal.h"
 
 namespace sightline::internal {
 
 std::uint32_t NodeJoiner::number(const SkeletonNode& node,
                                  std::span<const Generator> generators) {
-  NodeTable& table = node.kind == NodeKind::EEEE ? eeee_ : lines_;
-  return table.find_or_add(node, generators,
-                           static_cast<std::uint32_t>(out_.nodes.size()));
+  return table_of(node.kind).find_or_add(node, generators,
+                                         static_cast<std::uint32_t>(out_.nodes.size()));
 }
 
 std::uint32_t NodeJoiner::join(const SkeletonNode& node,

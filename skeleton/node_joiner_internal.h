@@ -25,11 +25,14 @@ class NodeJoiner {
   /// `end` and `ends` counts, and only where none ends there, what the others say.
   std::uint32_t join(const SkeletonNode& node, std::span<const Generator> generators,
                      bool grazes);
+  /// The same of a line that is found but once.
+  std::uint32_t add(SkeletonNode node, std::span<const Generator> generators,
+                    bool grazes);
   /// Calls join(i) for i = 0, ..., count - 1, which is to join a node of the kind and
   /// generators that name(i) tells as a pair; faster than one by one where many are
   /// known.
   template <class Name, class Join>
-  void join_each(std::size_t count, Name&& name, Join&& join) const {
+  void join_each(std::size_t count, Name&& name, Join&& join) {
     constexpr std::size_t kAhead = 64;
     for (std::size_t first = 0; first < count; first += kAhead) {
       const std::size_t end = std::min(count, first + kAhead);
@@ -45,9 +48,6 @@ class NodeJoiner {
     }
   }
 
-  /// The same of a line that is found but once.
-  std::uint32_t add(SkeletonNode node, std::span<const Generator> generators,
-                    bool grazes);
   /// Adds the node if its line is new.
   void add_if_new(const SkeletonNode& node, std::span<const Generator> generators);
   /// From now on no EEEE line is found that was found before.
@@ -58,7 +58,7 @@ class NodeJoiner {
   void finish_ends();
 
  private:
-  [[nodiscard]] const NodeTable& table_of(NodeKind kind) const {
+  [[nodiscard]] NodeTable& table_of(NodeKind kind) {
     return kind == NodeKind::EEEE ? eeee_ : lines_;
   }
   std::uint32_t number(const SkeletonNode& node, std::span<const Generator> generators);

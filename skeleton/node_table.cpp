@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "skeleton/large_arrays_internal.h"
-
 #include "skeleton/node_table_internal.h"
 
 namespace sightline::internal {
@@ -81,7 +80,7 @@ void NodeTable::expect_known(NodeKind kind, std::span<const Generator> generator
 
 void NodeTable::clear() {
   if (used_ == 0) return;
-  // One that has become too large is as slow to clear as it was to fill.
+  // Else one that was large once would cost as much to clear ever after.
   if (16 * used_ < places_.size()) places_.resize(places_.size() / 4);
   std::fill(places_.begin(), places_.end(), Place());
   used_ = 0;
@@ -90,8 +89,9 @@ void NodeTable::clear() {
 void NodeTable::grow() {
   std::vector<Place> old;
   old.swap(places_);
-  make_room(places_, std::max(kSmallest, 2 * old.size()));
-  places_.resize(std::max(kSmallest, 2 * old.size()));
+  const std::size_t size = std::max(kSmallest, 2 * old.size());
+  make_room(places_, size);
+  places_.resize(size);
   for (const Place& place : old) {
     if (place.node == kFree) continue;
     std::size_t at = home(place.hash);

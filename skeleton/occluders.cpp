@@ -161,23 +161,22 @@ void Occluders::look_at(const Box& box) {
 }
 
 int Occluders::recent_hider() {
-  const std::vector<std::int32_t>& asked = looking_ ? in_view_ : recent_;
-  const auto hider =
-      std::find_if(asked.begin(), asked.end(), [&](int shadow) { return hides(shadow); });
-  if (hider == asked.end()) return -1;
+  const auto hider = std::find_if(asked().begin(), asked().end(),
+                                  [&](int shadow) { return hides(shadow); });
+  if (hider == asked().end()) return -1;
   const int shadow = *hider;
   keep(shadow);
   return faces_[shadow];
 }
 
 int Occluders::hider(const Box& box) {
-  if ((looking_ ? in_view_ : recent_).empty()) return -1;
+  if (asked().empty()) return -1;
   aim(std::span(&box, 1));
   return recent_hider();
 }
 
 int Occluders::hider(const Point& q0, const Point& q1) {
-  if ((looking_ ? in_view_ : recent_).empty()) return -1;
+  if (asked().empty()) return -1;
   aim(std::array{box_of(std::span(&q0, 1)), box_of(std::span(&q1, 1))});
   return recent_hider();
 }

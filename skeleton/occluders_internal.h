@@ -51,6 +51,9 @@ class Occluders {
   void aim(std::span<const Box> parts);
   [[nodiscard]] bool hides(int shadow) const;
   [[nodiscard]] bool beside(int shadow) const;
+  [[nodiscard]] const std::vector<std::int32_t>& asked() const {
+    return looking_ ? in_view_ : recent_;
+  }
   [[nodiscard]] int recent_hider();
   void keep(int shadow);
 

@@ -13,9 +13,8 @@ struct Approximate {
 
 Approximate rounded(const Ball& x) { return {x.hi, x.radius + 2 * std::abs(x.lo)}; }
 
-// With x = value (1 + relative error), the quotient is off by
-// (error of the numerator + |quotient| error of the denominator) / |denominator|, and by
-// its own rounding.  The errors' roundings are covered by the factor 2.
+// x / y is off by (error of x + |x / y| error of y) / least |y|, and by its own rounding.
+// The errors' roundings are covered by the factor 2.
 std::optional<double> quotient(const Approximate& x, const Approximate& y) {
   const double least = std::abs(y.value) - y.error;
   const double s = x.value / y.value;

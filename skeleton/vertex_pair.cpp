@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "skeleton/plane_values_internal.h"
 #include "skeleton/vertex_pair_internal.h"
 
 namespace sightline::internal {
@@ -114,10 +115,8 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
     pair.mild = true;  // seen edge-on: hides one line at most
     return;
   }
-  const BoundedValue value0 = face_plane.value(pair.e0);
-  const BoundedValue value1 = face_plane.value(pair.e1);
-  const Sign there0 = sign_of(value0, face_plane, pair.e0);
-  const Sign there1 = sign_of(value1, face_plane, pair.e1);
+  const auto [value0, value1, there0, there1] =
+      plane_values(face_plane, pair.e0, pair.e1);
   if (there0 != -here && there1 != -here) return;  // wholly in front of the face
 
   // The trace's two ends, counter-clockwise around the viewpoint from `from` to `to`.
@@ -148,13 +147,9 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
     q = rising ? corners[k] : corners[next];
     const bool begins = rising == (here == Sign::Positive);
     const PlaneSide side_plane({at_, scene_.point(p), scene_.point(q)});
-    const BoundedValue x0 = side_plane.value(pair.e0);
-    const BoundedValue x1 = side_plane.value(pair.e1);
-    const Sign s0 = sign_of(x0, side_plane, pair.e0);
-    const Sign s1 = sign_of(x1, side_plane, pair.e1);
-    if (s0 == Sign::Zero || s1 == Sign::Zero) {
-      pair.mild = true;
-    }
+    const PlaneValues on_edge = plane_values(side_plane, pair.e0, pair.e1);
+    const auto& [x0, x1, s0, s1] = on_edge;
+    pair.mild |= on_edge.zero_at_end();
     // Negative s0: to the left of the ray to e0; positive s1: to the right of that to e1.
     if (s0 == Sign::Negative && s1 == Sign::Positive) {
       const int edge = scene_.edge_of_side(face, static_cast<int>(k));
@@ -318,13 +313,9 @@ void VertexViewer::add_unsupported_convex(Pair& pair) {
     bool empty = false;
     for (const int face : star_->faces) {
       const PlaneSide& plane = g_.face_plane(face);
-      const BoundedValue x0 = plane.value(pair.e0);
-      const BoundedValue x1 = plane.value(pair.e1);
-      const Sign s0 = sign_of(x0, plane, pair.e0);
-      const Sign s1 = sign_of(x1, plane, pair.e1);
-      if (s0 == Sign::Zero || s1 == Sign::Zero) {
-        pair.mild = true;
-      }
+      const PlaneValues on_edge = plane_values(plane, pair.e0, pair.e1);
+      const auto& [x0, x1, s0, s1] = on_edge;
+      pair.mild |= on_edge.zero_at_end();
       if (s0 == inside && s1 == inside) continue;
       if (s0 != inside && s1 != inside) {
         empty = true;
@@ -364,9 +355,8 @@ void VertexViewer::add_unsupported_general(Pair& pair) {
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
       const PlaneSide plane({at_, scene_.point(rays[i]), scene_.point(rays[j])});
-      const BoundedValue x0 = plane.value(pair.e0);
-      const BoundedValue x1 = plane.value(pair.e1);
-      Turn t{sign_of(x0, plane, pair.e0), sign_of(x1, plane, pair.e1), {}};
+      const auto [x0, x1, s0, s1] = plane_values(plane, pair.e0, pair.e1);
+      Turn t{s0, s1, {}};
       // Opposite rays span no plane: zero at both ends, and harmless.
       if ((t.before == Sign::Zero || t.after == Sign::Zero) &&
           !collinear(at_, scene_.point(rays[i]), scene_.point(rays[j]))) {

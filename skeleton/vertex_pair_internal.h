@@ -31,7 +31,6 @@ struct VertexViewer::PairLists {
 };
 
 struct VertexViewer::Pair {
-  int ridge;
   const Ridge* r;
   const Edge* edge;
   const Point& e0;

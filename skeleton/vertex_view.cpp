@@ -307,8 +307,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   if (collinear(at_, e0, e1)) return;  // along the edge: no family of lines
 
   lists_->clear();
-  Pair pair{ridge,
-            &r,
+  Pair pair{&r,
             &edge,
             e0,
             e1,
