@@ -7,6 +7,7 @@
 #include "skeleton/degenerate_pair_internal.h"
 #include "skeleton/drawn_internal.h"
 #include "skeleton/node_contacts_internal.h"
+#include "skeleton/plane_crossings_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -36,36 +37,6 @@ std::optional<std::array<bool, 2>> open_state(const Generators& g, const Ridge& 
   return ends;
 }
 
-// The point strictly inside both segments where they cross, for four points in a plane
-// that `off_plane` is not in.
-std::optional<ExactPoint> crossing_in_plane(const Scene& scene,
-                                            const std::array<std::int32_t, 2>& s,
-                                            const std::array<std::int32_t, 2>& t,
-                                            int off_plane) {
-  const Point& p = scene.point(s[0]);
-  const Point& q = scene.point(s[1]);
-  const Point& a = scene.point(t[0]);
-  const Point& b = scene.point(t[1]);
-  for (int i = 0; i < 3; ++i) {
-    if (std::max(p[i], q[i]) < std::min(a[i], b[i]) ||
-        std::max(a[i], b[i]) < std::min(p[i], q[i])) {
-      return std::nullopt;
-    }
-  }
-  const Point& up = scene.point(off_plane);
-  const auto apart = [&](const Point& from, const Point& to, const Point& x,
-                         const Point& y) {
-    const Sign one = orient3d(from, to, up, x);
-    return one != Sign::Zero && one == -orient3d(from, to, up, y);
-  };
-  if (!apart(p, q, a, b) || !apart(a, b, p, q)) return std::nullopt;
-  const ExactPoint from = exact_point(a);
-  const ExactPoint to = exact_point(b);
-  const Rational x = exact_orient(exact_point(p), exact_point(q), exact_point(up), from);
-  const Rational y = exact_orient(exact_point(p), exact_point(q), exact_point(up), to);
-  return along(from, to, x / (x - y));
-}
-
 }  // namespace
 
 std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Point& e0,
@@ -75,12 +46,7 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
   const Scene& scene = g.scene();
   const Point& v = scene.point(star.point);
   std::vector<Cut> cuts;
-  int off_plane = -1;
-  for (const int f : faces) {
-    for (const int p : scene.face_points(f)) {
-      if (plane(scene.point(p)) != Sign::Zero) off_plane = p;
-    }
-  }
+  const int off_plane = corner_off(scene, faces, plane);
   const auto add = [&](CutKind kind, int feature, std::array<std::int32_t, 3> points) {
     const PlaneSide cutter(
         {scene.point(points[0]), scene.point(points[1]), scene.point(points[2])});
@@ -107,32 +73,15 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
     add(at_viewpoint ? CutKind::Support : CutKind::Pierce, scene.faces()[f].facet,
         plane_points(scene, f));
   }
-  // Sides in the plane that cross there: contacts meet at the crossing.
   if (off_plane >= 0) {
-    std::vector<std::array<std::int32_t, 2>> sides;
-    for (const int f : faces) {
-      const auto corners = scene.face_points(f);
-      for (std::size_t k = 0; k < corners.size(); ++k) {
-        const int p = corners[k];
-        const int q = corners[(k + 1) % corners.size()];
-        if (plane(scene.point(p)) != Sign::Zero || plane(scene.point(q)) != Sign::Zero)
-          continue;
-        sides.push_back({std::min(p, q), std::max(p, q)});
-      }
-    }
-    sort_unique(sides);
     const ExactPoint eye = exact_point(v);
     const ExactPoint up = exact_point(scene.point(off_plane));
-    for (std::size_t i = 0; i < sides.size(); ++i) {
-      for (std::size_t j = i + 1; j < sides.size(); ++j) {
-        const auto x = crossing_in_plane(scene, sides[i], sides[j], off_plane);
-        if (!x) continue;
-        const Rational a = exact_orient(eye, *x, up, exact_point(e0));
-        const Rational b = exact_orient(eye, *x, up, exact_point(e1));
-        if (a.sign() * b.sign() >= 0) continue;
-        positions.push_back(a / (a - b));
-        cuts.push_back(exact_cut(positions.back()));
-      }
+    for (const ExactPoint& x : plane_crossings(scene, faces, plane, off_plane)) {
+      const Rational a = exact_orient(eye, x, up, exact_point(e0));
+      const Rational b = exact_orient(eye, x, up, exact_point(e1));
+      if (a.sign() * b.sign() >= 0) continue;
+      positions.push_back(a / (a - b));
+      cuts.push_back(exact_cut(positions.back()));
     }
   }
   if (!star.convex) {
@@ -366,6 +315,7 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
       node.end = all.end;
     }
     node.segment = all.segment;
+    view.lines[id] = all.line;
     node.first_generator = static_cast<std::uint32_t>(view.pool.size());
     node.generator_count = static_cast<std::uint32_t>(all.generators.size());
     view.pool.insert(view.pool.end(), all.generators.begin(), all.generators.end());

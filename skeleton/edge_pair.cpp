@@ -2,9 +2,11 @@
 #include <cmath>
 
 #include "skeleton/drawn_internal.h"
+#include "skeleton/edge_cuts_internal.h"
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/occluder_shadow_internal.h"
+#include "skeleton/plane_crossings_internal.h"
 
 namespace sightline::internal {
 
@@ -389,6 +391,7 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
       }
     }
   }
+  for (const Rational& s : in_plane_stops(outer, curve, faces)) add(curve.cut_at(s));
   std::sort(stops.begin(), stops.end(), [&](const CurveCut& a, const CurveCut& b) {
     return curve.compare(a, b) == Sign::Negative;
   });
@@ -440,6 +443,55 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
   }
   if (begin) free.push_back({{*begin, stops.back()}, stretch.f0, *state});
   return free;
+}
+
+// Where two of the edges are coplanar the lines are a pencil of their plane, through the
+// point in which the third edge crosses it: the parameters of the lines to corners in the
+// plane and to crossings of sides.
+std::vector<Rational> EdgePairs::in_plane_stops(const Outer& outer, const EeeCurve& curve,
+                                                std::span<const int> faces) const {
+  const std::array<std::int32_t, 2>* edges[] = {
+      &outer.points.p, &carriers_.all[curve.middle()].points, &outer.points.q};
+  const auto at = [&](int edge, int k) -> const Point& {
+    return scene_.point((*edges[edge])[k]);
+  };
+  const auto coplanar = [&](int a, int b) {
+    return orient3d(at(a, 0), at(a, 1), at(b, 0), at(b, 1)) == Sign::Zero;
+  };
+  const int other = coplanar(0, 1) ? 1 : coplanar(0, 2) ? 2 : -1;
+  if (other < 0) return {};
+  const int third = 3 - other;
+  const int k = collinear(at(0, 0), at(0, 1), at(other, 0)) ? 1 : 0;
+  const PlaneSide plane({at(0, 0), at(0, 1), at(other, k)});
+  const int off_plane = corner_off(scene_, faces, plane);
+  if (off_plane < 0) return {};
+  const auto point = [&](int edge, int i) { return exact_point(at(edge, i)); };
+  const auto off = [&](const ExactPoint& x) {
+    return exact_orient(point(0, 0), point(0, 1), point(other, k), x);
+  };
+  const Rational from = off(point(third, 0));
+  const Rational to = off(point(third, 1));
+  if (from == to) return {};
+  const ExactPoint centre = along(point(third, 0), point(third, 1), from / (from - to));
+
+  std::vector<ExactPoint> points = plane_crossings(scene_, faces, plane, off_plane);
+  std::vector<int> corners;
+  for (const int f : faces) {
+    for (const int p : scene_.face_points(f)) {
+      if (plane(scene_.point(p)) == Sign::Zero) corners.push_back(p);
+    }
+  }
+  sort_unique(corners);
+  for (const int p : corners) points.push_back(exact_point(scene_.point(p)));
+
+  std::vector<Rational> found;
+  const ExactPoint up = exact_point(scene_.point(off_plane));
+  for (const ExactPoint& x : points) {
+    const Rational a = exact_orient(centre, x, up, point(0, 0));
+    const Rational b = exact_orient(centre, x, up, point(0, 1));
+    if (a.sign() * b.sign() < 0) found.push_back(a / (a - b));
+  }
+  return found;
 }
 
 // The parts of the curve inside the square and of the middle edge, between the outer

@@ -37,6 +37,7 @@ struct FoundNode {
   std::array<Point, 2> segment;
   /// Of a line with more contacts: all of them, in order; `generators` are not used.
   std::vector<Generator> all;
+  std::uint32_t line = 0;  ///< as of NodeContacts
 };
 
 struct FoundArc {
@@ -95,6 +96,9 @@ class EdgePairs {
                const Stretch& stretch, std::vector<FoundArc>& out);
   [[nodiscard]] std::vector<Stretch> free_parts(const Outer& outer, const EeeCurve& curve,
                                                 const Stretch& open);
+  [[nodiscard]] std::vector<Rational> in_plane_stops(const Outer& outer,
+                                                     const EeeCurve& curve,
+                                                     std::span<const int> faces) const;
   [[nodiscard]] FoundNode node_at(const Outer& outer, const EeeCurve& curve, int middle,
                                   const CurveCut& cut, const Stretch& stretch);
   [[nodiscard]] std::array<bool, 2> ends_at(const Outer& outer, const EeeCurve& curve,

@@ -85,6 +85,9 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
     std::copy(generators.begin(), generators.end(), node.generators.begin());
   };
   switch (cut.kind) {
+    case CurveCutKind::Given:
+      set(NodeKind::Degenerate, {first, between, last});
+      break;
     case CurveCutKind::Start:
       set(NodeKind::VEE, {vertex(outer.points.p[0]), between, last});
       break;
@@ -190,6 +193,7 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
     return other.hi >= cut.lo && other.lo <= cut.hi && !other.same_as(cut) &&
            curve.compare(other, cut) == Sign::Zero;
   };
+  if (cut.kind == CurveCutKind::Given) return true;
   // Where edges of touching solids cross, a line meets both at one point.
   if (cut.kind == CurveCutKind::Crossing) {
     for (const int ridge :
@@ -288,20 +292,21 @@ void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
     all = contacts_along(g_, *line, {edge(outer.first), edge(outer.last)}, node.grazes);
   }
   if (all.generators.empty()) return;
-  if (all.kind == node.kind && g_.polygon() && all.kind != NodeKind::Degenerate) {
+  const bool nothing_new = all.kind == node.kind && all.kind != NodeKind::Degenerate;
+  if (nothing_new && g_.polygon()) {
     const bool turned = node.generators[0] != all.generators.front();
     node.ends = {all.ends[turned ? 1 : 0], all.ends[turned ? 0 : 1]};
     node.end = all.end;
     return;
   }
-  if (all.kind == node.kind && !all.end)
-    return;  // nothing new; no kind found is Degenerate
+  if (nothing_new && !all.end) return;
   node.kind = all.kind;
   node.self = all.self;
   node.end = all.end;
   node.ends = all.ends;
   node.rising = all.second;
   node.all = all.generators;
+  node.line = all.line;
   node.segment = all.segment;
 }
 

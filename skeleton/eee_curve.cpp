@@ -1,4 +1,5 @@
 #include <CGAL/Gmpq.h>
+#include <CGAL/Gmpz.h>
 
 #include <algorithm>
 #include <cassert>
@@ -161,6 +162,11 @@ std::array<Ring, 3> EeeCurve::exact_quadratic(int carrier) const {
 EeeCurve::Root EeeCurve::exact(const CurveCut& cut) const {
   if (cut.kind == CurveCutKind::Start) return {0, 0, 1, 0};
   if (cut.kind == CurveCutKind::End) return {1, 0, 1, 0};
+  if (cut.kind == CurveCutKind::Given) {
+    const Rational& s = given_[static_cast<std::size_t>(cut.feature)];
+    const auto ring = [](const auto& x) { return Ring(CGAL::Gmpz(x.backend().data())); };
+    return {ring(numerator(s)), 0, ring(denominator(s)), 0};
+  }
   if (cut.kind != CurveCutKind::Crossing) {
     const auto [x, y] = exact_linear(cut);
     const Ring c = x - y;
@@ -181,6 +187,17 @@ EeeCurve::Root EeeCurve::exact(const CurveCut& cut) const {
   const Ring root = rising ? 1 : -1;
   if (sign_a == Sign::Positive) return {-b, root, 2 * a, d};
   return {b, -root, -2 * a, d};
+}
+
+CurveCut EeeCurve::cut_at(const Rational& s) const {
+  constexpr double slack = 16 * kU;
+  const double near = s.convert_to<double>();
+  CurveCut cut{CurveCutKind::Given};
+  cut.feature = static_cast<std::int32_t>(given_.size());
+  cut.lo = near * (1 - slack);
+  cut.hi = std::min(1.0, near * (1 + slack));
+  given_.push_back(s);
+  return cut;
 }
 
 Sign EeeCurve::compare(const CurveCut& a, const CurveCut& b) const {

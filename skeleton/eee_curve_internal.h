@@ -60,15 +60,16 @@ struct OuterPair {
 
 /// What cuts the curve at a position.
 enum class CurveCutKind : std::uint8_t {
-  Start,    ///< the first end point of the first edge
-  End,      ///< its second
-  Far,      ///< an end point of the last edge
-  Middle,   ///< an end point of the middle edge
-  OnFirst,  ///< the line lies in the plane of a face at the first edge
-  OnPlane,  ///< the first edge's point lies in a plane: of a face at the middle or last
-            ///< edge, or of a face that the first edge enters
-  OnFar,    ///< the last edge's point lies in the plane of a face that this edge enters
-  Crossing  ///< the line meets a fourth one
+  Start,     ///< the first end point of the first edge
+  End,       ///< its second
+  Far,       ///< an end point of the last edge
+  Middle,    ///< an end point of the middle edge
+  OnFirst,   ///< the line lies in the plane of a face at the first edge
+  OnPlane,   ///< the first edge's point lies in a plane: of a face at the middle or last
+             ///< edge, or of a face that the first edge enters
+  OnFar,     ///< the last edge's point lies in the plane of a face that this edge enters
+  Crossing,  ///< the line meets a fourth one
+  Given      ///< at a parameter that was told: of EeeCurve::cut_at()
 };
 
 /// A position on the curve.  Two cuts with the same kind, feature and `rising` are equal.
@@ -76,7 +77,8 @@ struct CurveCut {
   CurveCutKind kind;
   /// Crossing: of the two roots that where H, taken in order of carriers, rises.
   bool rising = false;
-  /// Far, Middle: point id; OnFirst, OnPlane, OnFar: facet id; Crossing: carrier.
+  /// Far, Middle: point id; OnFirst, OnPlane, OnFar: facet id; Crossing: carrier;
+  /// Given: number.
   std::int32_t feature = -1;
   /// OnFirst, OnPlane, OnFar: three points of the plane.
   std::array<std::int32_t, 3> plane{-1, -1, -1};
@@ -122,6 +124,9 @@ class EeeCurve {
   [[nodiscard]] int middle() const { return middle_; }
   [[nodiscard]] const BoundedForm& form() const { return form_; }
   [[nodiscard]] const OuterPair& pair() const { return pair_; }
+
+  /// The cut at a parameter strictly between 0 and 1, for this curve only.
+  [[nodiscard]] CurveCut cut_at(const Rational& s) const;
 
   /// Order of two cuts: the sign of s(a) - s(b), exact.
   [[nodiscard]] Sign compare(const CurveCut& a, const CurveCut& b) const;
@@ -197,6 +202,7 @@ class EeeCurve {
   int middle_;
   BoundedForm form_;
   mutable std::optional<Form<Ring>> exact_form_;
+  mutable std::vector<Rational> given_;
 };
 
 }  // namespace sightline::internal

@@ -27,7 +27,7 @@ std::uint32_t join(const FoundNode& found, NodeJoiner& nodes) {
   node.ends = found.ends;
   node.second = found.rising;
   node.segment = found.segment;
-  return nodes.join(node, generators_of(found), found.grazes);
+  return nodes.join(node, generators_of(found), found.grazes, found.line);
 }
 
 // All arcs of one first edge.

@@ -247,7 +247,7 @@ void add_pair(const FoundFacePair& found, NodeJoiner& nodes) {
   node.end = contacts.end;
   node.segment = found.segment;
   if (node.kind == NodeKind::Degenerate) {
-    nodes.add_if_new(node, contacts.generators);
+    nodes.add_if_new(node, contacts.generators, contacts.line);
   } else {
     nodes.add(node, contacts.generators, true);
   }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -47,6 +48,10 @@ struct NodeContacts {
   bool turned = false;                ///< listed against the line's direction
   /// Of an irrational line: which of the two through the same edges.
   bool second = false;
+  /// Of a rational line that is Degenerate, of contacts_along(): tells it from others
+  /// that make the same contacts, as lines of a pencil may.  A hash of the exact line;
+  /// else 0.
+  std::uint32_t line = 0;
   /// The outermost contacts, rounded, in the order of `generators`; of contacts_along().
   std::array<Point, 2> segment{Point::Zero(), Point::Zero()};
 };

@@ -23,8 +23,9 @@ class NodeJoiner {
   /// The number of the line's node, which is as given where it is new (its generators'
   /// place aside).  `grazes`: an arc of solid mode ends there; what such arcs say of
   /// `end` and `ends` counts, and only where none ends there, what the others say.
+  /// `line` is that of NodeContacts.
   std::uint32_t join(const SkeletonNode& node, std::span<const Generator> generators,
-                     bool grazes);
+                     bool grazes, std::uint32_t line = 0);
   /// The same of a line that is found but once.
   std::uint32_t add(SkeletonNode node, std::span<const Generator> generators,
                     bool grazes);
@@ -49,7 +50,8 @@ class NodeJoiner {
   }
 
   /// Adds the node if its line is new.
-  void add_if_new(const SkeletonNode& node, std::span<const Generator> generators);
+  void add_if_new(const SkeletonNode& node, std::span<const Generator> generators,
+                  std::uint32_t line);
   /// From now on no EEEE line is found that was found before.
   void forget_eeee() { eeee_.clear(); }
 
@@ -61,7 +63,8 @@ class NodeJoiner {
   [[nodiscard]] NodeTable& table_of(NodeKind kind) {
     return kind == NodeKind::EEEE ? eeee_ : lines_;
   }
-  std::uint32_t number(const SkeletonNode& node, std::span<const Generator> generators);
+  std::uint32_t number(const SkeletonNode& node, std::span<const Generator> generators,
+                       std::uint32_t line);
   void found_again(std::uint32_t number, const SkeletonNode& node,
                    std::span<const Generator> generators, bool grazes);
 

@@ -9,13 +9,14 @@ namespace {
 constexpr std::size_t kSmallest = 64;
 
 // The same for all orders of the generators.
-std::uint32_t hash_of(NodeKind kind, std::span<const Generator> generators) {
+std::uint32_t hash_of(NodeKind kind, std::span<const Generator> generators,
+                      std::uint32_t line = 0) {
   const auto mixed = [](std::uint64_t x) {  // SplitMix64 (Steele, Lea and Flood 2014)
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
   };
-  auto sum = static_cast<std::uint64_t>(kind);
+  std::uint64_t sum = std::uint64_t{line} << 8 | static_cast<std::uint64_t>(kind);
   for (const Generator& g : generators) {
     sum += mixed((static_cast<std::uint64_t>(g.kind) + 1) << 32 |
                  static_cast<std::uint32_t>(g.id));
@@ -49,9 +50,9 @@ bool NodeTable::same_line(const SkeletonNode& known, const SkeletonNode& node,
 
 std::uint32_t NodeTable::find_or_add(const SkeletonNode& node,
                                      std::span<const Generator> generators,
-                                     std::uint32_t next) {
+                                     std::uint32_t line, std::uint32_t next) {
   if (2 * used_ >= places_.size()) grow();
-  const std::uint32_t hash = hash_of(node.kind, generators);
+  const std::uint32_t hash = hash_of(node.kind, generators, line);
   std::size_t at = home(hash);
   for (; places_[at].node != kFree; at = after(at)) {
     const Place& place = places_[at];

@@ -12,7 +12,8 @@ namespace sightline::internal {
 
 /// A node is told from others by its kind and generators: of VV and Degenerate from
 /// either end, of FvE in any order; of EEEE and Degenerate also by `second`; of VV and
-/// FvE in solid mode by `end`.
+/// FvE in solid mode by `end`; of Degenerate by NodeContacts::line, in 32 bits of hash:
+/// of two lines with the same generators one in 2^32 pairs is taken for the other.
 ///
 /// Open addressing with eight bytes a place, probed one after the other: skeletons have
 /// tens of millions of nodes.  What determines a node is read from the skeleton itself.
@@ -25,7 +26,7 @@ class NodeTable {
   /// number of the node that is appended then.
   [[nodiscard]] std::uint32_t find_or_add(const SkeletonNode& node,
                                           std::span<const Generator> generators,
-                                          std::uint32_t next);
+                                          std::uint32_t line, std::uint32_t next);
   void clear();
 
   /// Hints that a node will be asked for: to fetch its place, and then, a while later,

@@ -44,7 +44,7 @@ void add_view(const VertexView& view, bool eee_follows, NodeJoiner& nodes,
                           node.kind == NodeKind::Pierce || (!eee_follows && by_arcs);
         const bool grazes = view.grazes[i] != 0;
         number[i] = once ? nodes.add(node, generators_of(node), grazes)
-                         : nodes.join(node, generators_of(node), grazes);
+                         : nodes.join(node, generators_of(node), grazes, view.lines[i]);
       });
   internal::make_room(out.arcs, view.arcs.size());
   for (SkeletonArc arc : view.arcs) {

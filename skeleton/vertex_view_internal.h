@@ -33,6 +33,8 @@ struct VertexView {
   std::vector<std::uint8_t> special;
   /// Of the arcs, while it is built: found among zero signs.
   std::vector<std::uint8_t> special_arcs;
+  /// Of the nodes: as of NodeContacts.
+  std::vector<std::uint32_t> lines;
   /// Of the nodes: an arc of solid mode ends there, or for EVE nodes two line up.
   std::vector<std::uint8_t> grazes;
   /// EVE nodes, by positions on the edges of two arcs.

@@ -46,6 +46,19 @@ TEST(NodeJoiner, ToldFromEitherEndALineIsOneNode) {
   EXPECT_EQ(skeleton.nodes.size(), 3U);
 }
 
+// Lines of a pencil in a plane may touch the same edges.
+TEST(NodeJoiner, LinesWithTheSameGeneratorsAreToldApartByTheirLines) {
+  Skeleton skeleton;
+  NodeJoiner nodes(skeleton);
+  const Generators contacts{edge(1), facet(2), facet(3)};
+  const auto first = nodes.join(node(NodeKind::Degenerate), contacts, true, 17);
+  EXPECT_NE(nodes.join(node(NodeKind::Degenerate), contacts, true, 18), first);
+  EXPECT_EQ(nodes.join(node(NodeKind::Degenerate),
+                       Generators(contacts.rbegin(), contacts.rend()), true, 17),
+            first);
+  EXPECT_EQ(skeleton.nodes.size(), 2U);
+}
+
 TEST(NodeJoiner, LinesOfOtherGeneratorsOrKindsAreOtherNodes) {
   Skeleton skeleton;
   NodeJoiner nodes(skeleton);

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "skeleton/edge_cuts_internal.h"
+#include "skeleton/node_contacts_internal.h"
+#include "skeleton/plane_crossings_internal.h"
+
+namespace sightline::internal {
+namespace {
+
+// The point strictly inside both segments where they cross, for four points in a plane
+// that `off_plane` is not in.
+std::optional<ExactPoint> crossing(const Scene& scene,
+                                   const std::array<std::int32_t, 2>& s,
+                                   const std::array<std::int32_t, 2>& t, int off_plane) {
+  const Point& p = scene.point(s[0]);
+  const Point& q = scene.point(s[1]);
+  const Point& a = scene.point(t[0]);
+  const Point& b = scene.point(t[1]);
+  for (int i = 0; i < 3; ++i) {
+    if (std::max(p[i], q[i]) < std::min(a[i], b[i]) ||
+        std::max(a[i], b[i]) < std::min(p[i], q[i])) {
+      return std::nullopt;
+    }
+  }
+  const Point& up = scene.point(off_plane);
+  const auto apart = [&](const Point& from, const Point& to, const Point& x,
+                         const Point& y) {
+    const Sign one = orient3d(from, to, up, x);
+    return one != Sign::Zero && one == -orient3d(from, to, up, y);
+  };
+  if (!apart(p, q, a, b) || !apart(a, b, p, q)) return std::nullopt;
+  const ExactPoint from = exact_point(a);
+  const ExactPoint to = exact_point(b);
+  const Rational x = exact_orient(exact_point(p), exact_point(q), exact_point(up), from);
+  const Rational y = exact_orient(exact_point(p), exact_point(q), exact_point(up), to);
+  return along(from, to, x / (x - y));
+}
+
+}  // namespace
+
+int corner_off(const Scene& scene, std::span<const int> faces, const PlaneSide& plane) {
+  for (const int f : faces) {
+    for (const int p : scene.face_points(f)) {
+      if (plane(scene.point(p)) != Sign::Zero) return p;
+    }
+  }
+  return -1;
+}
+
+std::vector<ExactPoint> plane_crossings(const Scene& scene, std::span<const int> faces,
+                                        const PlaneSide& plane, int off_plane) {
+  std::vector<std::array<std::int32_t, 2>> sides;
+  for (const int f : faces) {
+    const auto corners = scene.face_points(f);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const int p = corners[k];
+      const int q = corners[(k + 1) % corners.size()];
+      if (plane(scene.point(p)) != Sign::Zero || plane(scene.point(q)) != Sign::Zero)
+        continue;
+      sides.push_back({std::min(p, q), std::max(p, q)});
+    }
+  }
+  sort_unique(sides);
+  std::vector<ExactPoint> found;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    for (std::size_t j = i + 1; j < sides.size(); ++j) {
+      if (auto x = crossing(scene, sides[i], sides[j], off_plane)) {
+        found.push_back(std::move(*x));
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace sightline::internal
