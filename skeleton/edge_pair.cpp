@@ -160,8 +160,10 @@ bool EdgePairs::gather(const Outer& outer) {
                {{linear(outer.last_planes[0]), linear(outer.last_planes[1])},
                 touched_on(last),
                 (q1 - q0).norm()});
+  others_.clear();
   for (const int face : faces_) {
     if (is_of(first, face) || is_of(last, face)) continue;
+    others_.push_back(face);
     const auto& [p, q] = planes_of(outer, face);
     if (p.sign0 == p.sign1 && p.sign0 == q.sign0 && p.sign0 == q.sign1 &&
         p.sign0 != Sign::Zero) {
@@ -619,11 +621,6 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
     sign[c] = constraints_[c].values.sign1;
     from = to;
   }
-}
-
-bool EdgePairs::skips(const Outer& outer, const Ridge& middle, int face) const {
-  return is_of(g_.ridges()[outer.first], face) || is_of(middle, face) ||
-         is_of(g_.ridges()[outer.last], face);
 }
 
 void EdgePairs::find_blocked(const Outer& outer, const Ridge& middle,

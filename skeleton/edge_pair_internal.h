@@ -112,7 +112,6 @@ class EdgePairs {
                      FoundNode& node) const;
   [[nodiscard]] bool may_touch_beyond(const Outer& outer, const EeeCurve& curve,
                                       const CurveCut& cut, const FoundNode& node);
-  [[nodiscard]] bool skips(const Outer& outer, const Ridge& middle, int face) const;
 
   [[nodiscard]] const BoundedForm& form_of(const Outer& outer, int carrier);
   [[nodiscard]] const BoundedLinear& beside_last(const Outer& outer, int point);
@@ -128,6 +127,7 @@ class EdgePairs {
   // The pair at hand.
   std::vector<EdgeView::Part> first_parts_;  // of the first edge
   std::vector<std::int32_t> faces_;
+  std::vector<std::int32_t> others_;  // of neither edge
   std::uint32_t pair_stamp_ = 0;
   std::vector<std::uint32_t> face_stamp_;
   std::vector<std::array<PlaneValues, 2>> face_planes_;

@@ -7,6 +7,52 @@
 #include "skeleton/node_contacts_internal.h"
 
 namespace sightline::internal {
+namespace {
+
+// A line by two points on the outer edges, each off by at most `error` in each
+// coordinate.
+struct RoundedLine {
+  Point a, b;
+  double error;
+
+  // False proves that the segment between the two does not meet the box.
+  [[nodiscard]] bool may_meet(const Box& box) const {
+    const Point d = b - a;
+    Point x, h;  // of the box: centre as seen from a, half sizes with all that is off
+    for (int i = 0; i < 3; ++i) {
+      const double centre = 0.5 * (box.min[i] + box.max[i]);
+      x[i] = centre - a[i];
+      h[i] = 0.5 * (box.max[i] - box.min[i]) + 2 * error +
+             16 * kUnit * (std::abs(centre) + std::abs(a[i]) + std::abs(b[i]));
+    }
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3;
+      const double di = std::abs(d[i]);
+      const double dj = std::abs(d[j]);
+      const double rounding = 4 * kUnit * (di * std::abs(x[j]) + dj * std::abs(x[i]));
+      if (std::abs(d[i] * x[j] - d[j] * x[i]) > di * h[j] + dj * h[i] + rounding) {
+        return false;
+      }
+    }
+    return true;
+  }
+};
+
+RoundedLine rounded_line(const OuterPair& o, const EeeCurve& curve, const CurveCut& cut) {
+  const auto t = curve.enclose_last(cut);
+  const auto slack = [](double low, double high, const Point& a, const Point& b) {
+    return (0.5 * (high - low) + 4 * kUnit) * (b - a).cwiseAbs().sum() +
+           8 * kUnit * (a.cwiseAbs().sum() + b.cwiseAbs().sum());
+  };
+  const Point& p0 = o.at(o.p[0]);
+  const Point& p1 = o.at(o.p[1]);
+  const Point& q0 = o.at(o.q[0]);
+  const Point& q1 = o.at(o.q[1]);
+  return {p0 + cut.parameter() * (p1 - p0), q0 + 0.5 * (t[0] + t[1]) * (q1 - q0),
+          std::max(slack(cut.lo, cut.hi, p0, p1), slack(t[0], t[1], q0, q1))};
+}
+
+}  // namespace
 
 // Polygon mode: which outer contacts of the line at a cut are end contacts, first edge
 // first.  Where one changes from a graze into an end the line lies in the plane of a
@@ -165,16 +211,13 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
     std::swap(node.ends[0], node.ends[1]);
   }
   if (cut.kind == CurveCutKind::Far) std::swap(node.segment[0], node.segment[1]);
-  const auto objects = [&](const Generator& x) -> std::vector<std::int32_t> {
-    if (x.kind == GeneratorKind::Vertex) {
-      const auto at = g_.objects_at(x.id);
-      return {at.begin(), at.end()};
-    }
-    if (x.kind == GeneratorKind::Face) return {scene_.facets()[x.id].object};
+  const auto objects = [&](const Generator& x) -> std::span<const std::int32_t> {
+    if (x.kind == GeneratorKind::Vertex) return g_.objects_at(x.id);
+    if (x.kind == GeneratorKind::Face) return {&scene_.facets()[x.id].object, 1};
     if (x.id < 0) return {};
     const int r = g_.ridge_of_edge(x.id);
     if (r >= 0) return g_.ridges()[r].objects;
-    return {scene_.edges()[x.id].object};
+    return {&scene_.edges()[x.id].object, 1};
   };
   for (int a = 0; a < node.count; ++a) {
     for (int b = a + 1; b < node.count; ++b) {
@@ -247,8 +290,9 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
   }
   const Ridge& r = g_.ridges()[middle];
   ++node_stamp_;
-  for (const int face : faces_) {
-    if (skips(outer, r, face)) continue;
+  const RoundedLine line = rounded_line(outer.points, curve, cut);
+  for (const int face : others_) {
+    if (!line.may_meet(g_.face_box(face)) || is_of(r, face)) continue;
     for (const auto& side : carriers_.of_face(face)) {
       if (node_stamps_[side.carrier] == node_stamp_) continue;
       node_stamps_[side.carrier] = node_stamp_;
@@ -263,19 +307,8 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
 // The same beyond the outer edges.
 bool EdgePairs::may_touch_beyond(const Outer& outer, const EeeCurve& curve,
                                  const CurveCut& cut, const FoundNode& node) {
-  const auto& o = outer.points;
-  const auto t = curve.enclose_last(cut);
-  const auto slack = [](double low, double high, const Point& a, const Point& b) {
-    return (0.5 * (high - low) + 4 * kUnit) * (b - a).cwiseAbs().sum() +
-           8 * kUnit * (a.cwiseAbs().sum() + b.cwiseAbs().sum());
-  };
-  const Point& p0 = o.at(o.p[0]);
-  const Point& p1 = o.at(o.p[1]);
-  const Point& q0 = o.at(o.q[0]);
-  const Point& q1 = o.at(o.q[1]);
-  const double error = std::max(slack(cut.lo, cut.hi, p0, p1), slack(t[0], t[1], q0, q1));
-  return probe_.may_touch_more(p0 + cut.parameter() * (p1 - p0),
-                               q0 + 0.5 * (t[0] + t[1]) * (q1 - q0), error,
+  const RoundedLine line = rounded_line(outer.points, curve, cut);
+  return probe_.may_touch_more(line.a, line.b, line.error,
                                {node.generators.data(), node.count});
 }
 

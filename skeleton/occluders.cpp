@@ -8,7 +8,7 @@
 namespace sightline::internal {
 namespace {
 
-constexpr std::size_t kRecent = 16;  // speed only
+constexpr std::size_t kRecent = 6;  // speed only
 
 std::array<double, 3> relative(const std::array<double, 3>& p, const Point& origin) {
   return {p[0] - origin[0], p[1] - origin[1], p[2] - origin[2]};

@@ -7,9 +7,9 @@ namespace sightline::internal {
 namespace {
 
 constexpr double kU = kUnitRoundoff;
-// A cell is left whole after so many halvings when so few faces are left: speed only.
+// A cell is left whole after so many halvings, or when so few faces are left: speed only.
 constexpr int kDeepest = 12;
-std::size_t few_faces(int depth) { return depth < 6 ? 3 : depth < kDeepest ? 8 : ~0u; }
+constexpr std::size_t kFewFaces = 8;
 
 // Certain signs at some positions; `neutral`: where the value is zero exactly, at an end
 // of an edge.
@@ -238,7 +238,7 @@ int PairCells::visit(const Cell& cell, int depth, std::size_t begin, std::size_t
   mixed_.erase(std::unique(mixed_.begin(), mixed_.end()), mixed_.end());
   std::erase_if(mixed_, [&](int m) { return !(*is_middle_)(m); });
   if (!mixed_.empty()) {
-    if (list_.size() - kept <= few_faces(depth)) {
+    if (depth >= kDeepest || list_.size() - kept <= kFewFaces) {
       middles_.insert(middles_.end(), mixed_.begin(), mixed_.end());
       add_leaf(cell, kept, -1);
     } else {

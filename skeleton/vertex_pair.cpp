@@ -24,6 +24,26 @@ bool contains(std::span<const std::int32_t> sorted, std::int32_t x) {
 
 }  // namespace
 
+// On which side of the pair's plane a corner is; the edge's own ends are in it.
+inline Sign VertexViewer::side_of(const Pair& pair, int corner) {
+  PointSide& known = point_sides_[corner];
+  if (known.pair != pair_) [[unlikely]] {
+    known = {pair_, pair.plane(scene_.point(corner))};
+  }
+  return known.side;
+}
+
+// The face does not meet the plane of the pair.
+inline bool VertexViewer::on_one_side(const Pair& pair, int face) {
+  const auto corners = scene_.face_points(face);
+  const Sign first = side_of(pair, corners[0]);
+  if (first == Sign::Zero) return false;
+  for (std::size_t k = 1; k < corners.size(); ++k) {
+    if (side_of(pair, corners[k]) != first) return false;
+  }
+  return true;
+}
+
 // All that may hide some of the edge, from front to back; true once all of it is hidden.
 bool VertexViewer::add_blockers(Pair& pair) {
   const auto hides_all = [&](int face) {
@@ -39,7 +59,8 @@ bool VertexViewer::add_blockers(Pair& pair) {
     if (blocker == pair.edge->object || contains(own_objects_, blocker)) return false;
     const auto facing = around_.facing(blocker);
     return std::any_of(facing.begin(), facing.end(), [&](int face) {
-      return pair.triangle.may_meet(g_.face_box(face)) && hides_all(face);
+      return !on_one_side(pair, face) && pair.triangle.may_meet(g_.face_box(face)) &&
+             hides_all(face);
     });
   });
 }
@@ -63,13 +84,16 @@ void VertexViewer::list_faces(Pair& pair) const {
 // part of the edge within its two ends' directions and behind the face's plane.
 void VertexViewer::add_blocker(Pair& pair, int face) {
   const Face& f = scene_.faces()[face];
-  if (at_viewpoint(f.facet)) return;
+  // At a corner that stands alone there are its own object's faces only.
+  const bool own = contains(own_objects_, f.object);
+  const bool apart = star_->convex && !own;
+  if (!apart && at_viewpoint(f.facet)) return;
   if (std::find(pair.lists.edge_facets.begin(), pair.lists.edge_facets.end(), f.facet) !=
       pair.lists.edge_facets.end()) {
     return;
   }
-  if (g_.convex_solid(f.object) &&
-      (f.object == pair.edge->object || contains(own_objects_, f.object))) {
+  const bool solid = g_.convex_solid(f.object);
+  if (solid && (f.object == pair.edge->object || own)) {
     return;  // a line that supports a convex solid does not meet it elsewhere
   }
   const auto corners = scene_.face_points(face);
@@ -85,14 +109,11 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
   bool back = false;
   bool stray = false;  // a corner other than the edge's ends lies in the plane
   for (std::size_t k = 0; k < n; ++k) {
-    if (corners[k] == pair.r->points[0] || corners[k] == pair.r->points[1]) {
-      signs[k] = Sign::Zero;
-      continue;
-    }
-    signs[k] = pair.plane(scene_.point(corners[k]));
+    signs[k] = side_of(pair, corners[k]);
     front |= signs[k] == Sign::Positive;
     back |= signs[k] == Sign::Negative;
-    stray |= signs[k] == Sign::Zero;
+    stray |= signs[k] == Sign::Zero && corners[k] != pair.r->points[0] &&
+             corners[k] != pair.r->points[1];
   }
   if (stray) {
     pair.mild = true;
@@ -114,6 +135,10 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
   if (here == Sign::Zero) {
     pair.mild = true;  // seen edge-on: hides one line at most
     return;
+  }
+  if (here == Sign::Negative && solid &&
+      !boxes_meet(g_.object_box(f.object), box_of(std::span(&at_, 1)))) {
+    return;  // a line comes in by a face in front, which hides no less
   }
   const auto [value0, value1, there0, there1] =
       plane_values(face_plane, pair.e0, pair.e1);
@@ -155,7 +180,7 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
       const int edge = scene_.edge_of_side(face, static_cast<int>(k));
       Cut cut =
           make_cut(CutKind::Side, edge, {point_, std::min(p, q), std::max(p, q)}, x0, x1);
-      if (edge >= 0) {
+      if (edge >= 0 && !apart) {
         // A side of a face at the viewpoint: its plane is that face's.
         for (const Edge::Side& s : scene_.edges()[edge].sides) {
           const int facet = scene_.faces()[s.face].facet;

@@ -163,7 +163,8 @@ VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
       occluders_(generators),
       probe_(generators),
       around_(around),
-      lists_(std::make_unique<PairLists>()) {}
+      lists_(std::make_unique<PairLists>()),
+      point_sides_(scene_.points().size()) {}
 
 VertexViewer::~VertexViewer() = default;
 
@@ -311,6 +312,8 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   if (collinear(at_, e0, e1)) return;  // along the edge: no family of lines
 
   lists_->clear();
+  ++pair_;
+  for (const int end : r.points) point_sides_[end] = {pair_, Sign::Zero};
   Pair pair{&r,
             &edge,
             e0,

@@ -96,6 +96,8 @@ class VertexViewer {
   void drop_short_arcs(VertexView& out);
   void drop_arcs_off_source(VertexView& out);
   void view_ridge(int ridge, VertexView& out);
+  [[nodiscard]] Sign side_of(const Pair& pair, int corner);
+  [[nodiscard]] bool on_one_side(const Pair& pair, int face);
   bool add_blockers(Pair& pair);
   void add_blocker(Pair& pair, int face);
   void list_faces(Pair& pair) const;
@@ -135,6 +137,13 @@ class VertexViewer {
   LineProbe probe_;
   Surroundings& around_;
   std::unique_ptr<PairLists> lists_;
+  // By point, while the pair's number is that of the pair at hand: its side of the plane.
+  struct PointSide {
+    std::uint32_t pair = 0;
+    Sign side{};
+  };
+  std::vector<PointSide> point_sides_;
+  std::uint32_t pair_ = 0;
   VertexView out_;
 };
 
