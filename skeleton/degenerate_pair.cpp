@@ -77,10 +77,9 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
     const ExactPoint eye = exact_point(v);
     const ExactPoint up = exact_point(scene.point(off_plane));
     for (const ExactPoint& x : plane_crossings(scene, faces, plane, off_plane)) {
-      const Rational a = exact_orient(eye, x, up, exact_point(e0));
-      const Rational b = exact_orient(eye, x, up, exact_point(e1));
-      if (a.sign() * b.sign() >= 0) continue;
-      positions.push_back(a / (a - b));
+      auto s = parameter_towards(eye, x, up, exact_point(e0), exact_point(e1));
+      if (!s) continue;
+      positions.push_back(std::move(*s));
       cuts.push_back(exact_cut(positions.back()));
     }
   }

@@ -75,4 +75,13 @@ std::vector<ExactPoint> plane_crossings(const Scene& scene, std::span<const int>
   return found;
 }
 
+std::optional<Rational> parameter_towards(const ExactPoint& eye, const ExactPoint& x,
+                                          const ExactPoint& off_plane,
+                                          const ExactPoint& e0, const ExactPoint& e1) {
+  const Rational a = exact_orient(eye, x, off_plane, e0);
+  const Rational b = exact_orient(eye, x, off_plane, e1);
+  if (a.sign() * b.sign() >= 0) return std::nullopt;
+  return Rational(a / (a - b));
+}
+
 }  // namespace sightline::internal

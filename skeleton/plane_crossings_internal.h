@@ -3,11 +3,13 @@
 
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "linespace/contact_internal.h"
 #include "linespace/predicates.h"
+#include "linespace/rational_internal.h"
 #include "linespace/scene.h"
 
 namespace sightline::internal {
@@ -22,5 +24,13 @@ namespace sightline::internal {
                                                       std::span<const int> faces,
                                                       const PlaneSide& plane,
                                                       int off_plane);
+
+/// Where the line through `eye` and x meets the segment from e0 (0) to e1 (1) strictly
+/// inside, all in one plane that `off_plane` is not in; nullopt where it does not.
+[[nodiscard]] std::optional<Rational> parameter_towards(const ExactPoint& eye,
+                                                        const ExactPoint& x,
+                                                        const ExactPoint& off_plane,
+                                                        const ExactPoint& e0,
+                                                        const ExactPoint& e1);
 
 }  // namespace sightline::internal

@@ -1,0 +1,170 @@
+// The general way of EdgePairs, for lines in the planes of faces or along touched edges:
+// a stretch of a curve is cut at every critical position, and the contacts of one exact
+// line decide between any two.
+
+#include <algorithm>
+#include <utility>
+
+#include "skeleton/drawn_internal.h"
+#include "skeleton/edge_cuts_internal.h"
+#include "skeleton/edge_pair_internal.h"
+#include "skeleton/node_contacts_internal.h"
+#include "skeleton/plane_crossings_internal.h"
+
+namespace sightline::internal {
+
+std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
+                                                      const EeeCurve& curve,
+                                                      const Stretch& stretch) {
+  const CurveInterval& open = stretch.part;
+  std::vector<CurveCut> stops;
+  const auto add = [&](const CurveCut& cut) {
+    if (curve.compare(open.from, cut) == Sign::Negative &&
+        curve.compare(cut, open.to) == Sign::Negative) {
+      stops.push_back(cut);
+    }
+  };
+  const auto& o = outer.points;
+  const int own[] = {carriers_.of_ridge[outer.first], curve.middle(),
+                     carriers_.of_ridge[outer.last]};
+  ++node_stamp_;
+  const std::vector<int> faces = view_.all_faces();
+  for (const int face : faces) {
+    const PlaneSide& plane = g_.face_plane(face);
+    const std::array<std::int32_t, 3> points = plane_points(scene_, face);
+    const int facet = scene_.faces()[face].facet;
+    const PlaneValues p = plane_values(plane, o.at(o.p[0]), o.at(o.p[1]));
+    if (p.sign0 == -p.sign1 && p.sign0 != Sign::Zero) {
+      CurveCut cut{CurveCutKind::OnPlane, false, facet, points, 0, 1};
+      enclose_root({p.at0.value, p.at1.value, p.at0.error, p.at1.error, {}, {}}, cut);
+      add(cut);
+    }
+    const PlaneValues q = plane_values(plane, o.at(o.q[0]), o.at(o.q[1]));
+    if (q.sign0 == -q.sign1 && q.sign0 != Sign::Zero) {
+      const BoundedLinear l = curve.at_last_edge(q.at0, q.at1, points);
+      if (l.sign0 == -l.sign1 && l.sign0 != Sign::Zero) {
+        CurveCut cut{CurveCutKind::OnFar, false, facet, points, 0, 1};
+        enclose_root(l, cut);
+        add(cut);
+      }
+    }
+    for (const auto& side : carriers_.of_face(face)) {
+      if (node_stamps_[side.carrier] == node_stamp_) continue;
+      node_stamps_[side.carrier] = node_stamp_;
+      if (std::find(std::begin(own), std::end(own), side.carrier) != std::end(own)) {
+        continue;
+      }
+      next_.clear();
+      bool zero = false;
+      curve.where(side.carrier, form_of(outer, side.carrier), Sign::Positive, open, next_,
+                  zero);
+      for (const CurveInterval& part : next_) {
+        add(part.from);
+        add(part.to);
+      }
+    }
+  }
+  for (const Rational& s : in_plane_stops(outer, curve, faces)) add(curve.cut_at(s));
+  std::sort(stops.begin(), stops.end(), [&](const CurveCut& a, const CurveCut& b) {
+    return curve.compare(a, b) == Sign::Negative;
+  });
+  stops.erase(std::unique(stops.begin(), stops.end(),
+                          [&](const CurveCut& a, const CurveCut& b) {
+                            return curve.compare(a, b) == Sign::Zero;
+                          }),
+              stops.end());
+  stops.insert(stops.begin(), open.from);
+  stops.push_back(open.to);
+
+  // Which outer contacts are end contacts; nullopt when the line is not free.
+  using State = std::optional<std::array<bool, 2>>;
+  const Ridge& first = g_.ridges()[outer.first];
+  const Ridge& last = g_.ridges()[outer.last];
+  const auto state_of = [&](const std::optional<std::array<ExactPoint, 2>>& line,
+                            bool drawn) -> State {
+    if (!line) return std::nullopt;
+    const LineScan scan(scene_, faces, (*line)[0], (*line)[1]);
+    if (!g_.polygon()) return is_free(scan) ? State(stretch.ends) : std::nullopt;
+    const State ends = blocked_ends(g_, scan);
+    const bool possible = ends && ((*ends)[0] ? first.can_end() : first.can_graze()) &&
+                          ((*ends)[1] ? last.can_end() : last.can_graze());
+    if (!possible) return std::nullopt;
+    const bool seen = !drawn || ((!(*ends)[0] || !first.touched ||
+                                  drawn_end(g_, first, scan, false, Eye((*line)[1]))) &&
+                                 (!(*ends)[1] || !last.touched ||
+                                  drawn_end(g_, last, scan, true, Eye((*line)[0]))));
+    return seen ? ends : std::nullopt;
+  };
+  std::vector<Stretch> free;
+  std::optional<CurveCut> begin;
+  State state;  // from `begin` on
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const auto s = curve.between(stops[i], stops[i + 1]);
+    const State here = s ? state_of(curve.points_at(*s), true) : std::nullopt;
+    if (begin && i > 0) {
+      // The arc goes on through a critical line that is free itself.
+      const auto line = curve.points_at(stops[i]);
+      if (here != state || (line && state_of(line, false) != state)) {
+        free.push_back({{*begin, stops[i]}, stretch.f0, *state});
+        begin.reset();
+      }
+    }
+    if (here && !begin) {
+      begin = stops[i];
+      state = here;
+    }
+  }
+  if (begin) free.push_back({{*begin, stops.back()}, stretch.f0, *state});
+  return free;
+}
+
+// Where two of the edges are coplanar the lines are a pencil of their plane, through the
+// point in which the third edge crosses it: the parameters of the lines to corners in the
+// plane and to crossings of sides.
+std::vector<Rational> EdgePairs::in_plane_stops(const Outer& outer, const EeeCurve& curve,
+                                                std::span<const int> faces) const {
+  const std::array<std::int32_t, 2>* edges[] = {
+      &outer.points.p, &carriers_.all[curve.middle()].points, &outer.points.q};
+  const auto at = [&](int edge, int k) -> const Point& {
+    return scene_.point((*edges[edge])[k]);
+  };
+  const auto coplanar = [&](int a, int b) {
+    return orient3d(at(a, 0), at(a, 1), at(b, 0), at(b, 1)) == Sign::Zero;
+  };
+  const int other = coplanar(0, 1) ? 1 : coplanar(0, 2) ? 2 : -1;
+  if (other < 0) return {};
+  const int third = 3 - other;
+  const int k = collinear(at(0, 0), at(0, 1), at(other, 0)) ? 1 : 0;
+  const PlaneSide plane({at(0, 0), at(0, 1), at(other, k)});
+  const int off_plane = corner_off(scene_, faces, plane);
+  if (off_plane < 0) return {};
+  const auto point = [&](int edge, int i) { return exact_point(at(edge, i)); };
+  const auto off = [&](const ExactPoint& x) {
+    return exact_orient(point(0, 0), point(0, 1), point(other, k), x);
+  };
+  const Rational from = off(point(third, 0));
+  const Rational to = off(point(third, 1));
+  if (from == to) return {};
+  const ExactPoint centre = along(point(third, 0), point(third, 1), from / (from - to));
+
+  std::vector<ExactPoint> points = plane_crossings(scene_, faces, plane, off_plane);
+  std::vector<int> corners;
+  for (const int f : faces) {
+    for (const int p : scene_.face_points(f)) {
+      if (plane(scene_.point(p)) == Sign::Zero) corners.push_back(p);
+    }
+  }
+  sort_unique(corners);
+  for (const int p : corners) points.push_back(exact_point(scene_.point(p)));
+
+  std::vector<Rational> found;
+  const ExactPoint up = exact_point(scene_.point(off_plane));
+  for (const ExactPoint& x : points) {
+    if (auto s = parameter_towards(centre, x, up, point(0, 0), point(0, 1))) {
+      found.push_back(std::move(*s));
+    }
+  }
+  return found;
+}
+
+}  // namespace sightline::internal
