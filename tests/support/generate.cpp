@@ -21,6 +21,10 @@ using namespace sightline::testing;
 constexpr const char* kUsage =
     "usage: sightline_generate KIND [--polygons N | --count K] [--seed S] -o FILE\n"
     "  city, grid-city, touching-city   N polygons (default 1000)\n"
+    "  street-city, square-city [--bottom Z] [--triangles yes]\n"
+    "                                   the same; bottoms at Z (default 0, on the "
+    "slab),\n"
+    "                                   every quad cut into two triangles\n"
     "  polytopes [--vertices V] [--density D], parallelepipeds,\n"
     "  boxes, grid-boxes, rotated-boxes K solids (default 10)\n"
     "  visible:slab [--size S],\n"
@@ -30,10 +34,14 @@ constexpr const char* kUsage =
     "  touching:NAME                    boxes that touch, NAME one of:\n";
 
 sightline::PolygonSoup generate(const std::string& kind, std::uint64_t seed, int polygons,
-                                int count, int vertices, double density) {
+                                int count, int vertices, double density, double bottom) {
   if (kind == "city") return city(seed, polygons);
   if (kind == "grid-city") return grid_city(seed, polygons);
   if (kind == "touching-city") return grid_city(seed, polygons, {.may_touch = true});
+  if (kind == "street-city") return street_city(seed, polygons, {.bottom = bottom});
+  if (kind == "square-city") {
+    return street_city(seed, polygons, {.square = true, .bottom = bottom});
+  }
   if (kind == "polytopes") {
     return random_polytopes(
         seed, count,
@@ -78,7 +86,7 @@ int main(int argc, char** argv) {
   std::map<std::string, std::string> options = {
       {"--polygons", "1000"}, {"--count", "10"},    {"--seed", "1"},
       {"--vertices", "8"},    {"--density", "0.1"}, {"--occluders", "10"},
-      {"--size", "0.25"}};
+      {"--size", "0.25"},     {"--bottom", "0"},    {"--triangles", "no"}};
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "-o" && i + 1 < argc) {
@@ -106,9 +114,12 @@ int main(int argc, char** argv) {
           output, visibility_cases(kind, seed, count, std::stoi(options["--occluders"]),
                                    std::stod(options["--size"])));
     } else {
-      write_obj(output, generate(kind, seed, std::stoi(options["--polygons"]), count,
-                                 std::stoi(options["--vertices"]),
-                                 std::stod(options["--density"])));
+      const sightline::PolygonSoup soup =
+          generate(kind, seed, std::stoi(options["--polygons"]), count,
+                   std::stoi(options["--vertices"]), std::stod(options["--density"]),
+                   std::stod(options["--bottom"]));
+      write_obj(output,
+                options["--triangles"] == "yes" ? cut_into_triangles(soup) : soup);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "sightline_generate: %s\n", error.what());

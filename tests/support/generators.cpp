@@ -591,6 +591,42 @@ PolygonSoup grid_city(std::uint64_t seed, int polygon_count,
   return soup;
 }
 
+PolygonSoup street_city(std::uint64_t seed, int polygon_count,
+                        const StreetCityOptions& options) {
+  constexpr std::array<double, 3> kSides{4, 6, 7};
+  constexpr std::array<double, 5> kTops{3, 5, 8, 12, 20};
+  constexpr double kLot = 10, kSlab = 5, kMargin = 10;
+  if (!(options.bottom > -kSlab && options.bottom < 2)) {
+    throw std::runtime_error("street_city: bottoms must be above -5 and below 2");
+  }
+  const int count = buildings_for(polygon_count);
+  const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
+  const int rows = (count + columns - 1) / columns;
+  Random random(seed);
+  PolygonSoup soup;
+  soup.source =
+      (options.square ? "square" : "street") + (" city of seed " + std::to_string(seed));
+  add_box(soup, "ground",
+          {{-kMargin, -kMargin, -kSlab},
+           {kLot * columns + kMargin, kLot * rows + kMargin, 0}});
+  for (int i = 0; i < count; ++i) {
+    std::array<double, 2> low{kLot * (i % columns), kLot * (i / columns)}, size;
+    double top;
+    if (options.square) {
+      for (double& side : size) side = kSides[random.integer(0, 2)];
+      top = kTops[random.integer(0, 4)];
+    } else {
+      for (double& x : low) x += random.uniform(0, 2);
+      for (double& side : size) side = random.uniform(3, 7);
+      top = random.uniform(2, 25);
+    }
+    add_box(
+        soup, "building" + std::to_string(i),
+        {{low[0], low[1], options.bottom}, {low[0] + size[0], low[1] + size[1], top}});
+  }
+  return soup;
+}
+
 PolygonSoup triangle_soup(std::uint64_t seed, int count) {
   Random random(seed);
   const auto point = [&](double size) {
@@ -606,6 +642,28 @@ PolygonSoup triangle_soup(std::uint64_t seed, int count) {
     soup.polygons.push_back({3 * i, 3 * i + 1, 3 * i + 2});
   }
   return soup;
+}
+
+PolygonSoup cut_into_triangles(const PolygonSoup& soup) {
+  PolygonSoup result;
+  result.source = soup.source;
+  result.vertices = soup.vertices;
+  std::vector<std::vector<int>> parts(soup.polygons.size());
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    const std::vector<int>& polygon = soup.polygons[f];
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+      parts[f].push_back(static_cast<int>(result.polygons.size()));
+      result.polygons.push_back({polygon[0], polygon[i], polygon[i + 1]});
+    }
+  }
+  for (const PolygonSoup::Group& group : soup.groups) {
+    result.groups.push_back({.name = group.name, .faces = {}});
+    std::vector<int>& faces = result.groups.back().faces;
+    for (const int f : group.faces) {
+      faces.insert(faces.end(), parts[f].begin(), parts[f].end());
+    }
+  }
+  return result;
 }
 
 void write_obj(const std::string& path, const PolygonSoup& soup) {

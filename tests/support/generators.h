@@ -135,9 +135,28 @@ struct GridCityOptions {
 [[nodiscard]] PolygonSoup grid_city(std::uint64_t seed, int polygon_count,
                                     const GridCityOptions& options = {});
 
+struct StreetCityOptions {
+  /// Few sides and heights, so that walls and roofs line up over the whole city.
+  bool square = false;
+  /// Height of the boxes' bottoms.  0: they stand on the slab's top.  Below 0, but above
+  /// -5: they are sunk into the slab.  Above 0: they float.  All else is the same.
+  double bottom = 0;
+};
+
+/// Rows of boxes, one a lot of 10 x 10, on a slab 5 thick, with its top in the plane
+/// z = 0, that is 10 larger than the lots all round.  Street city: offset in the lot 0 to
+/// 2, sides 3 to 7, tops at 2 to 25, all continuous.  Square city: on the lot's corner,
+/// sides 4, 6 or 7, tops at 3, 5, 8, 12 or 20.  Numbers and names of groups as in city().
+[[nodiscard]] PolygonSoup street_city(std::uint64_t seed, int polygon_count,
+                                      const StreetCityOptions& options = {});
+
 /// `count` triangles scattered in the cube [-1, 1]^3, which intersect at will; about as
 /// many are met by a line whatever the count.  No groups.
 [[nodiscard]] PolygonSoup triangle_soup(std::uint64_t seed, int count);
+
+/// The same with every polygon of more than three corners cut into triangles around its
+/// first corner: right for convex polygons.
+[[nodiscard]] PolygonSoup cut_into_triangles(const PolygonSoup& soup);
 
 /// Writes an OBJ file, doubles with 17 digits, one `o` line per group.  Throws
 /// std::runtime_error when the file cannot be written.

@@ -197,6 +197,45 @@ TEST(Generators, CitiesStandOnTheirSlab) {
   }
 }
 
+TEST(Generators, StreetCitiesFillTheirLots) {
+  for (const bool square : {false, true}) {
+    for (const double bottom : {0.0, -1.0, 0.001}) {
+      const PolygonSoup soup = street_city(3, 1000, {.square = square, .bottom = bottom});
+      EXPECT_EQ(soup.polygons.size(), 996u);
+      EXPECT_EQ(soup.groups.size(), 166u);
+      expect_solids(soup);
+      // 13 columns, 13 rows.
+      using Range = std::pair<double, double>;
+      const auto range = [&](std::size_t g, const Point& axis) -> Range {
+        return extent(soup, soup.groups[g], axis);
+      };
+      EXPECT_EQ(range(0, Point::UnitX()), Range(-10, 140));
+      EXPECT_EQ(range(0, Point::UnitY()), Range(-10, 140));
+      EXPECT_EQ(range(0, Point::UnitZ()), Range(-5, 0));
+      for (std::size_t g = 1; g < soup.groups.size(); ++g) {
+        const double column = 10.0 * static_cast<double>((g - 1) % 13);
+        const double row = 10.0 * static_cast<double>((g - 1) / 13);
+        for (const auto& [axis, corner] :
+             {std::pair{Point(1, 0, 0), column}, std::pair{Point(0, 1, 0), row}}) {
+          const auto [low, high] = range(g, axis);
+          EXPECT_GE(low, corner);
+          EXPECT_LE(low, corner + (square ? 0 : 2));
+          EXPECT_GE(high - low, square ? 4 : 3);
+          EXPECT_LE(high - low, 7);
+        }
+        EXPECT_EQ(range(g, Point::UnitZ()).first, bottom);
+        EXPECT_GE(range(g, Point::UnitZ()).second, 2);
+        EXPECT_LE(range(g, Point::UnitZ()).second, 25);
+      }
+      PolygonSoup buildings = soup;
+      buildings.groups.erase(buildings.groups.begin());
+      expect_disjoint(buildings);
+    }
+  }
+  EXPECT_EQ(cut_into_triangles(street_city(1, 100)).polygons.size(), 192u);
+  expect_solids(cut_into_triangles(street_city(1, 100)));
+}
+
 TEST(Generators, SameSeedSameScene) {
   const PolygonSoup a = random_polytopes(7, 4), b = random_polytopes(7, 4);
   EXPECT_EQ(a.vertices, b.vertices);
