@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <limits>
 
+#include "linespace/nearest_name.h"
 #include "linespace/scene_internal.h"
 
 namespace sightline {
@@ -247,8 +248,14 @@ namespace {
 
 [[noreturn]] void throw_unknown_name(const Scene& scene, const std::string& name) {
   constexpr std::size_t kShown = 5;
-  std::string message = "no group named '" + name + "'; there are ";
   const auto objects = scene.objects();
+  std::vector<std::string> names;
+  for (const Object& object : objects) names.push_back(object.name);
+  for (const PolygonSoup::Group& group : scene.soup().groups) names.push_back(group.name);
+  if (const auto near = nearest_name(name, names)) {
+    throw InvalidInput("no group named '" + name + "'; did you mean '" + *near + "'?");
+  }
+  std::string message = "no group named '" + name + "'; there are ";
   if (objects.empty()) message = "no group named '" + name + "'; there are none";
   for (std::size_t i = 0; i < std::min(kShown, objects.size()); ++i) {
     message += (i > 0 ? ", '" : "'") + objects[i].name + "'";

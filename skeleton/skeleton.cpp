@@ -1,6 +1,7 @@
 #include "skeleton/skeleton.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <span>
@@ -84,9 +85,22 @@ void build_ev(const Generators& generators, const SkeletonRequest& request,
   skeleton.complete = skeleton.vertices_done == skeleton.vertices_asked;
 }
 
+// What exact numbers cannot be made of is refused at the door.
+void check(const SkeletonRequest& request) {
+  if (request.near &&
+      !(request.near->centre.allFinite() && std::isfinite(request.near->radius) &&
+        request.near->radius >= 0)) {
+    throw InvalidInput("a ball needs a finite centre and a finite radius, not below 0");
+  }
+  if (!(std::isfinite(request.feature_size) && request.feature_size >= 0)) {
+    throw InvalidInput("a feature size must be finite and not below 0");
+  }
+}
+
 }  // namespace
 
 Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
+  check(request);
   const auto start = Clock::now();
   Skeleton skeleton;
   const StageCounts before = thread_stage_counts();
@@ -101,6 +115,7 @@ Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
 }
 
 Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
+  check(request);
   const auto start = Clock::now();
   Skeleton skeleton;
   const StageCounts before = thread_stage_counts();

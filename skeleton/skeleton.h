@@ -140,7 +140,7 @@ struct SkeletonRequest : Request {
   std::optional<std::array<Point, 2>> region;
   struct Ball {
     Point centre;
-    double radius;  ///< scene units
+    double radius;  ///< scene units; finite, not below 0, else InvalidInput is thrown
   };
   /// Only generators no farther than the radius from the centre, an edge with some point
   /// of it: what a viewpoint there has around it.  Decided exactly.

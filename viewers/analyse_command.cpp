@@ -13,7 +13,7 @@
 #include "viewers/command_line.h"
 #include "viewers/drawing.h"
 #include "viewers/eee_surface.h"
-#include "viewers/output_file.h"
+#include "viewers/outputs.h"
 #include "viewers/page.h"
 #include "viewers/palette.h"
 #include "viewers/vtk_export.h"
@@ -387,7 +387,6 @@ void print_summary(const Json& report, const fs::path& folder) {
 
 Scene load(const AnalyseOptions& options, const fs::path& folder) {
   if (!options.scene.empty()) return Scene(read_mesh(options.scene));
-  make_folder(folder);
   const fs::path file = folder / kBuiltinSceneName;
   write_whole(file, builtin_scene());
   PolygonSoup soup = read_mesh(file.string());
@@ -403,6 +402,8 @@ ExitStatus run(const AnalyseOptions& options) {
     }
   }
   const Interruption interruption;
+  Outputs outputs(options);
+  const OutputFolder report_folder(options.folder);
   const Meter meter;
   StageLog log;
   const PrecisionScope precision(options.precision);
@@ -433,7 +434,6 @@ ExitStatus run(const AnalyseOptions& options) {
   const std::size_t analysis_memory = peak_memory_bytes();
 
   // 3. Files.
-  make_folder(folder);
   const SkeletonLines lines(scene);
   const Highlights highlights = find_highlights(scene, skeleton);
   const std::vector<RuledStrip> strips =
@@ -479,7 +479,7 @@ ExitStatus run(const AnalyseOptions& options) {
   report["files"] = files;
   write_whole(folder / "report.json", report.dump(1) + "\n");
   write_whole(folder / "index.html", report_page(report, pictures));
-  write_answer(options, report);
+  outputs.write_answer(report);
   if (options.may_print()) print_summary(report, folder);
   return skeleton.complete ? kAnswered : kPartial;
 }
@@ -510,7 +510,7 @@ Command add_analyse_command(CLI::App& app) {
       ->add_option("--up", options->up,
                    "the axis that points up in the pictures (default: guessed)")
       ->type_name("x|y|z")
-      ->check(CLI::IsMember({"x", "y", "z"}));
+      ->check(one_of({"x", "y", "z"}));
   add_region_option(*command, options->region);
   add_budget_option(*command, options->budget);
   add_common_options(*command, *options);

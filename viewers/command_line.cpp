@@ -7,9 +7,6 @@
 #include <atomic>
 #include <csignal>
 #include <cstdio>
-#include <iostream>
-
-#include "viewers/output_file.h"
 
 namespace sightline::viewers {
 
@@ -39,7 +36,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
          "number of threads; 0 means one per core (default 0); the answer does not "
          "depend on it")
       ->type_name("N")
-      ->check(CLI::Range(0, 4096));
+      ->check(whole_number(0, 4096));
   app.add_option_function<std::string>(
          "--precision",
          [&options](const std::string& name) {
@@ -48,7 +45,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
          "exact: every sign is that of exact arithmetic; double: skips the exact stages, "
          "to measure what they cost and save (default exact)")
       ->type_name("exact|double")
-      ->check(CLI::IsMember({"exact", "double"}));
+      ->check(one_of({"exact", "double"}));
 }
 
 void add_budget_option(CLI::App& app, double& seconds) {
@@ -56,7 +53,7 @@ void add_budget_option(CLI::App& app, double& seconds) {
                  "seconds after which a partial answer is given, with exit status 3 "
                  "(default: no limit)")
       ->type_name("S")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above_zero());
 }
 
 void add_size_budget_option(CLI::App& app, std::size_t& bytes) {
@@ -69,7 +66,7 @@ void add_size_budget_option(CLI::App& app, std::size_t& bytes) {
          "given, with exit status 3; the process needs two to three times as much "
          "(default: no limit)")
       ->type_name("M")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above_zero());
 }
 
 void add_region_option(CLI::App& app, std::vector<double>& region) {
@@ -79,7 +76,8 @@ void add_region_option(CLI::App& app, std::vector<double>& region) {
          "(default: everywhere)")
       ->type_name("BOX")
       ->delimiter(',')
-      ->expected(6);
+      ->expected(6)
+      ->check(finite_number());
 }
 
 std::optional<std::array<Point, 2>> region_box(const std::vector<double>& region,
@@ -94,16 +92,6 @@ std::optional<std::array<Point, 2>> region_box(const std::vector<double>& region
         fmt::format("{}: the first corner must not exceed the second", option));
   }
   return std::array<Point, 2>{low, high};
-}
-
-void write_answer(const CommonOptions& options, const Json& answer) {
-  if (options.json.empty()) return;
-  const std::string text = answer.dump(1) + "\n";
-  if (options.json == "-") {
-    std::cout << text << std::flush;
-  } else {
-    write_whole(options.json, text);
-  }
 }
 
 struct Progress::State {

@@ -16,6 +16,7 @@
 
 #include "linespace/request.h"
 #include "viewers/answer.h"
+#include "viewers/option_checks.h"
 
 namespace sightline::viewers {
 
@@ -55,9 +56,6 @@ void add_region_option(CLI::App& app, std::vector<double>& region);
 /// when one is not finite or a lower corner is above its upper one.
 [[nodiscard]] std::optional<std::array<Point, 2>> region_box(
     const std::vector<double>& region, const char* option = "--region");
-
-/// Writes the answer where --json says, if anywhere.
-void write_answer(const CommonOptions& options, const Json& answer);
 
 /// A line on standard error that shows how far the work is; silent unless standard error
 /// is a terminal.

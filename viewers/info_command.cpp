@@ -6,7 +6,7 @@
 #include <map>
 
 #include "linespace/mesh_io.h"
-#include "viewers/command_line.h"
+#include "viewers/outputs.h"
 #include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
@@ -56,6 +56,7 @@ void print_summary(const Scene& scene, const Json& answer) {
 }
 
 ExitStatus run(const CommonOptions& options) {
+  Outputs outputs(options);
   const Meter meter;
   const PrecisionScope precision(options.precision);
   const Scene scene(read_mesh(options.scene));
@@ -63,7 +64,7 @@ ExitStatus run(const CommonOptions& options) {
   Json answer = answer_head("info", scene, true, {meter.seconds(), meter.predicates()});
   answer.update(info_json(scene, defects));
   if (!options.vtk.empty()) write_vtk(options.vtk, scene, {});
-  write_answer(options, answer);
+  outputs.write_answer(answer);
   if (options.may_print()) print_summary(scene, answer);
   return kAnswered;
 }

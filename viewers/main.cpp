@@ -2,32 +2,59 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-#include <iostream>
+#include <new>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "viewers/command_line.h"
 #include "viewers/output_file.h"
+#include "viewers/process.h"
 
 namespace {
 
-using sightline::viewers::Command;
-using sightline::viewers::ExitStatus;
+using namespace sightline::viewers;  // NOLINT(google-build-using-namespace)
 
-/// One line on standard error, whatever the message holds.
-ExitStatus complain(ExitStatus status, std::string message) {
-  for (char& c : message) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  std::fputs(fmt::format("sightline: {}\n", message).c_str(), stderr);
+ExitStatus complain(ExitStatus status, const std::string& message) {
+  tell_error(message);
   return status;
+}
+
+/// Parses the command line and runs the command; every error becomes a line and a status.
+ExitStatus run(CLI::App& app,
+               const std::vector<std::pair<std::string, Command>>& commands, int argc,
+               char** argv) {
+  try {
+    app.parse(argc, argv);
+    for (const auto& [name, run] : commands) {
+      if (app.got_subcommand(name)) return run();
+    }
+    return kOurFailure;
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {  // --help, --version
+      app.exit(error);
+      return kAnswered;
+    }
+    return complain(kBadInput, told(app, error));
+  } catch (const UsageError& error) {
+    return complain(kBadInput, error.what());
+  } catch (const OutputError& error) {
+    return complain(kBadInput, error.what());
+  } catch (const WriteError& error) {
+    return complain(kOurFailure, error.what());
+  } catch (const sightline::InvalidInput& error) {
+    return complain(kBadInput, error.what());
+  } catch (const std::bad_alloc&) {
+    return complain(kOurFailure, "out of memory");
+  } catch (const std::exception& error) {
+    return complain(kOurFailure, fmt::format("internal error: {}", error.what()));
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace sightline::viewers;  // NOLINT(google-build-using-namespace)
+  prepare_process();
   CLI::App app{
       "Exact 3D visibility: which lines touch what, and what that changes.\n"
       "Start with `sightline analyse`, which needs no file, or `sightline info FILE`.",
@@ -36,7 +63,8 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit status: 0 answered; 2 bad usage or bad input, nothing written;\n"
-      "3 budget ended or interrupted, partial answer written; 1 our own failure.");
+      "3 budget ended or interrupted, partial answer written; 1 our own failure, or an\n"
+      "output that could not be written to its end.");
   std::vector<std::pair<std::string, Command>> commands;
   commands.emplace_back("analyse", add_analyse_command(app));
   commands.emplace_back("info", add_info_command(app));
@@ -45,24 +73,8 @@ int main(int argc, char** argv) {
   commands.emplace_back("transversals", add_transversals_command(app));
   commands.emplace_back("view", add_view_command(app));
   commands.emplace_back("visible", add_visible_command(app));
-  try {
-    app.parse(argc, argv);
-    for (const auto& [name, run] : commands) {
-      if (app.got_subcommand(name)) return run();
-    }
-    return kOurFailure;
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help, --version
-    return complain(kBadInput, fmt::format("{} (see --help)", error.what()));
-  } catch (const UsageError& error) {
-    return complain(kBadInput, error.what());
-  } catch (const OutputError& error) {
-    return complain(kBadInput, error.what());
-  } catch (const sightline::InvalidInput& error) {
-    return complain(kBadInput, error.what());
-  } catch (const std::bad_alloc&) {
-    return complain(kOurFailure, "out of memory");
-  } catch (const std::exception& error) {
-    return complain(kOurFailure, fmt::format("internal error: {}", error.what()));
-  }
+  const ExitStatus status = run(app, commands, argc, argv);
+  const std::string unwritten = standard_output_error();
+  return unwritten.empty() || status == kOurFailure ? status
+                                                    : complain(kOurFailure, unwritten);
 }

@@ -1,57 +1,261 @@
 #include "viewers/output_file.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <streambuf>
 
 namespace sightline::viewers {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& path, const std::string& reason) {
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_to_open(const fs::path& path, const std::string& reason) {
   throw OutputError(fmt::format("{}: cannot be written: {}", path.string(), reason));
+}
+
+[[noreturn]] void fail_to_write(const fs::path& path, int error) {
+  throw WriteError(fmt::format("{}: could not be written to its end: {}",
+                               path == "-" ? "standard output" : path.string(),
+                               std::strerror(error == 0 ? EIO : error)));
+}
+
+bool same_file(const struct stat& a, const struct stat& b) {
+  return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+}
+
+/// The path without its links, also where the last one leads to nothing.
+fs::path followed(fs::path path) {
+  constexpr int kLongestChain = 40;
+  for (int i = 0; i < kLongestChain; ++i) {
+    std::error_code error;
+    if (!fs::is_symlink(fs::symlink_status(path, error))) return path;
+    const fs::path next = fs::read_symlink(path, error);
+    if (error) fail_to_open(path, error.message());
+    path = next.is_absolute() ? next : path.parent_path() / next;
+  }
+  fail_to_open(path, std::strerror(ELOOP));
+}
+
+int open_retrying(const char* path, int flags, mode_t mode = 0) {
+  int fd = -1;
+  do {
+    fd = ::open(path, flags | O_CLOEXEC, mode);
+  } while (fd < 0 && errno == EINTR);
+  return fd;
+}
+
+// Temporary files that exist, for remove_temporary_files: a slot holds the path of one
+// or is null.  Files beyond the last slot are only cleaned up by their owners.
+std::array<std::atomic<const char*>, 64> temporary_files;
+
+void remember(const fs::path& path) {
+  for (std::atomic<const char*>& slot : temporary_files) {
+    const char* empty = nullptr;
+    if (slot.compare_exchange_strong(empty, path.c_str())) return;
+  }
+}
+
+void forget(const fs::path& path) {
+  for (std::atomic<const char*>& slot : temporary_files) {
+    const char* mine = path.c_str();
+    if (slot.compare_exchange_strong(mine, nullptr)) return;
+  }
+}
+
+/// A new file in the folder, hidden and of a name nobody else has, and its descriptor.
+/// The extension stays last: some writers judge by it.
+std::pair<fs::path, int> create_temporary(const fs::path& folder,
+                                          const std::string& extension) {
+  static std::atomic<int> count = 0;
+  constexpr int kTries = 100;  // names left behind by a process of the same number
+  for (int i = 0; i < kTries; ++i) {
+    fs::path name = folder / fmt::format(".sightline-{}-{}{}", getpid(), ++count,
+                                         extension.size() < 20 ? extension : "");
+    const int fd = open_retrying(name.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
+    if (fd >= 0 || errno != EEXIST) return {std::move(name), fd};
+  }
+  return {{}, -1};
 }
 
 }  // namespace
 
-OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
-  if (std::filesystem::is_directory(path_)) fail(path_, "it is a folder");
-  temporary_ = path_;
-  // The extension stays last: some writers judge by it.
-  temporary_.replace_filename(fmt::format(".{}.{}{}", path_.stem().string(), getpid(),
-                                          path_.extension().string()));
-  stream_.open(temporary_, std::ios::binary | std::ios::trunc);
-  if (!stream_) fail(path_, std::strerror(errno));
+/// Bytes on their way into a file descriptor; keeps the first error.
+class OutputFile::Buffer : public std::streambuf {
+ public:
+  explicit Buffer(int fd, bool owned) : fd_(fd), owned_(owned) {
+    setp(bytes_.data(), bytes_.data() + bytes_.size());
+  }
+  ~Buffer() override {
+    if (owned_ && fd_ >= 0) ::close(fd_);
+  }
+  Buffer(const Buffer&) = delete;
+  Buffer& operator=(const Buffer&) = delete;
+
+  [[nodiscard]] int error() const { return error_; }
+  [[nodiscard]] int descriptor() const { return fd_; }
+
+  /// Writes what is left and closes the file.
+  void close() {
+    sync();
+    if (owned_ && fd_ >= 0 && ::close(fd_) != 0 && errno != EINTR && error_ == 0) {
+      error_ = errno;
+    }
+    fd_ = -1;
+  }
+
+ protected:
+  int sync() override {
+    const char* next = pbase();
+    while (next != pptr() && error_ == 0) {
+      const ssize_t n = ::write(fd_, next, static_cast<std::size_t>(pptr() - next));
+      if (n > 0) {
+        next += n;
+      } else if (n == 0 || errno != EINTR) {
+        error_ = n == 0 ? EIO : errno;
+      }
+    }
+    setp(bytes_.data(), bytes_.data() + bytes_.size());
+    return error_ == 0 ? 0 : -1;
+  }
+  int_type overflow(int_type c) override {
+    if (sync() != 0) return traits_type::eof();
+    if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
+    *pptr() = traits_type::to_char_type(c);
+    pbump(1);
+    return c;
+  }
+
+ private:
+  int fd_;
+  bool owned_;
+  int error_ = 0;
+  std::array<char, 1 << 16> bytes_;
+};
+
+OutputFile::OutputFile(const fs::path& path) : path_(path) {
+  if (path == "-") {
+    buffer_ = std::make_unique<Buffer>(STDOUT_FILENO, false);
+    stream_ = std::make_unique<std::ostream>(buffer_.get());
+    return;
+  }
+  if (!path.has_filename()) fail_to_open(path_, "the name is that of a folder");
+  struct stat there {};
+  const bool exists = ::stat(path.c_str(), &there) == 0;
+  if (!exists && errno != ENOENT) fail_to_open(path_, std::strerror(errno));
+  if (S_ISDIR(there.st_mode)) fail_to_open(path_, "it is a folder");
+  int fd = -1;
+  if (!exists || S_ISREG(there.st_mode)) {
+    target_ = followed(path);
+    replaces_ = true;
+  } else {
+    target_ = temporary_ = path;
+    fd = open_retrying(path.c_str(), O_WRONLY);
+  }
+  if (exists && replaces_) {
+    struct stat standard_output {};
+    if (::fstat(STDOUT_FILENO, &standard_output) == 0 &&
+        same_file(there, standard_output)) {
+      fail_to_open(path_, "standard output goes there too; '-' names it");
+    }
+    if (::access(path.c_str(), W_OK) != 0) fail_to_open(path_, std::strerror(errno));
+  }
+  if (replaces_) {
+    std::tie(temporary_, fd) =
+        create_temporary(target_.parent_path(), target_.extension().string());
+  }
+  if (fd < 0) fail_to_open(path_, std::strerror(errno));
+  // A file that is replaced keeps its permissions, as far as we may give them.
+  if (replaces_ && there.st_mode != 0) (void)::fchmod(fd, there.st_mode & 07777);
+  if (replaces_) remember(temporary_);
+  buffer_ = std::make_unique<Buffer>(fd, true);
+  stream_ = std::make_unique<std::ostream>(buffer_.get());
 }
 
 OutputFile::~OutputFile() {
-  if (committed_) return;
-  stream_.close();
-  std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+  if (committed_ || !replaces_) return;
+  ::unlink(temporary_.c_str());
+  forget(temporary_);
+}
+
+bool OutputFile::would_replace(const fs::path& file) const {
+  struct stat mine {};
+  struct stat other {};
+  return ::stat(target_.c_str(), &mine) == 0 && S_ISREG(mine.st_mode) &&
+         (file == "-" ? ::fstat(STDIN_FILENO, &other) : ::stat(file.c_str(), &other)) ==
+             0 &&
+         same_file(mine, other);
+}
+
+bool OutputFile::collides_with(const OutputFile& other) const {
+  std::error_code error;
+  if (!replaces_ || !other.replaces_) return false;
+  const auto folder = [&](const OutputFile& file) {
+    return fs::canonical(fs::absolute(file.target_).parent_path(), error);
+  };
+  return target_.filename() == other.target_.filename() && folder(*this) == folder(other);
 }
 
 void OutputFile::commit() {
-  stream_.close();
-  if (!stream_) fail(path_, "the disk may be full");
-  std::error_code error;
-  std::filesystem::rename(temporary_, path_, error);
-  if (error) fail(path_, error.message());
+  buffer_->close();
+  if (buffer_->error() != 0) fail_to_write(path_, buffer_->error());
+  if (replaces_) {
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail_to_write(path_, errno);
+    forget(temporary_);
+  }
   committed_ = true;
 }
 
-void write_whole(const std::filesystem::path& path, std::string_view bytes) {
+void write_whole(const fs::path& path, std::string_view bytes) {
   OutputFile file(path);
   file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.commit();
 }
 
-void make_folder(const std::filesystem::path& path) {
+void make_folder(const fs::path& path) {
   std::error_code error;
-  std::filesystem::create_directories(path, error);
-  if (error) fail(path, error.message());
-  if (!std::filesystem::is_directory(path)) fail(path, "it is not a folder");
+  fs::create_directories(path, error);
+  if (error) fail_to_open(path, error.message());
+  if (!fs::is_directory(path)) fail_to_open(path, "it is not a folder");
+}
+
+OutputFolder::OutputFolder(fs::path path) : path_(std::move(path)) {
+  if (path_.empty()) fail_to_open("''", "the name is empty");
+  for (fs::path p = fs::absolute(path_).lexically_normal(); !fs::exists(p);
+       p = p.parent_path()) {
+    if (!p.filename().empty()) made_.insert(made_.begin(), p);
+  }
+  try {
+    make_folder(path_);
+    const auto [probe, fd] = create_temporary(path_, "");
+    if (fd < 0) fail_to_open(path_, std::strerror(errno));
+    ::close(fd);
+    ::unlink(probe.c_str());
+  } catch (...) {
+    remove_made();
+    throw;
+  }
+}
+
+OutputFolder::~OutputFolder() { remove_made(); }
+
+void OutputFolder::remove_made() noexcept {
+  // rmdir refuses a folder that is not empty.
+  for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) {
+    ::rmdir(folder->c_str());
+  }
+}
+
+void remove_temporary_files() noexcept {
+  for (const std::atomic<const char*>& slot : temporary_files) {
+    if (const char* path = slot.load()) ::unlink(path);
+  }
 }
 
 }  // namespace sightline::viewers

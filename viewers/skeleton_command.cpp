@@ -9,7 +9,7 @@
 #include "linespace/mesh_io.h"
 #include "linespace/perturb.h"
 #include "viewers/command_line.h"
-#include "viewers/output_file.h"
+#include "viewers/outputs.h"
 #include "viewers/selection.h"
 #include "viewers/skeleton_file.h"
 #include "viewers/skeleton_queries.h"
@@ -303,6 +303,10 @@ Scene scene_of(const SkeletonOptions& options) {
 ExitStatus run(const SkeletonOptions& options) {
   check(options);
   const Interruption interruption;
+  Outputs outputs(options);
+  OutputFile* const output =
+      options.output.empty() ? nullptr : &outputs.add("-o", options.output);
+  outputs.protect(options.saved);
   const Meter meter;
   const PrecisionScope precision(options.precision);
   const Scene scene = scene_of(options);
@@ -346,10 +350,9 @@ ExitStatus run(const SkeletonOptions& options) {
 
   std::optional<SkeletonLines> lines;
   if (options.list || options.extend) lines.emplace(scene);
-  if (!options.output.empty()) {
-    OutputFile file(options.output);
-    write_skeleton_json(file.stream(), answer, scene, skeleton, nullptr);
-    file.commit();
+  if (output != nullptr) {
+    write_skeleton_json(output->stream(), answer, scene, skeleton, nullptr);
+    output->commit();
   }
   if (!options.vtk.empty()) {
     std::vector<RuledStrip> strips;
@@ -360,15 +363,11 @@ ExitStatus run(const SkeletonOptions& options) {
     }
     write_vtk(options.vtk, scene, {&skeleton, options.extend ? &strips : nullptr});
   }
-  if (!options.list || options.json.empty()) {
-    write_answer(options, answer);
-  } else if (options.json == "-") {
-    write_skeleton_json(std::cout, answer, scene, skeleton, &*lines);
-    std::cout << std::flush;
+  if (options.list && outputs.json() != nullptr) {
+    write_skeleton_json(outputs.json()->stream(), answer, scene, skeleton, &*lines);
+    outputs.json()->commit();
   } else {
-    OutputFile file(options.json);
-    write_skeleton_json(file.stream(), answer, scene, skeleton, &*lines);
-    file.commit();
+    outputs.write_answer(answer);
   }
   if (options.may_print()) {
     print_summary(scene, skeleton, answer);
@@ -392,7 +391,7 @@ Command add_skeleton_command(CLI::App& app) {
           "the two outermost contacts may also be visible creases and corners at "
           "which the free segment ends, counted under \"end\"")
       ->type_name("solid|polygon")
-      ->check(CLI::IsMember({"solid", "polygon"}).description(""));
+      ->check(one_of({"solid", "polygon"}));
   command
       ->add_option(
           "--kinds", options->kinds,
@@ -423,19 +422,21 @@ Command add_skeleton_command(CLI::App& app) {
                    "this, in scene units: nothing lines up across objects any more "
                    "(default 0: the scene as it is)")
       ->type_name("SIZE")
-      ->check(CLI::NonNegativeNumber.description(""));
+      ->check(number_from_zero(kLargestCoordinate));
   command->add_option("--seed", options->seed, "of --perturb's random maps (default 1)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(whole_number(0));
   command
       ->add_option("--near", options->near,
                    "only vertices and edges no farther than --radius from the point "
                    "x,y,z (an edge with some point of it)")
       ->type_name("x,y,z")
       ->delimiter(',')
-      ->expected(3);
+      ->expected(3)
+      ->check(finite_number());
   command->add_option("--radius", options->radius, "of --near, in scene units")
       ->type_name("R")
-      ->check(CLI::PositiveNumber);
+      ->check(number_above_zero());
   command
       ->add_option_function<std::vector<std::string>>(
           "--between-boxes",
@@ -452,7 +453,7 @@ Command add_skeleton_command(CLI::App& app) {
                    "occlude: shorter edges, corners with only such edges, EV arcs on a "
                    "shorter stretch; what is left out is reported (default 0: nothing)")
       ->type_name("L")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number_from_zero());
   add_budget_option(*command, options->budget);
   add_size_budget_option(*command, options->budget_bytes);
   command->add_flag("--list", options->list,

@@ -7,6 +7,7 @@
 #include "linespace/portals.h"
 #include "viewers/command_line.h"
 #include "viewers/json_input.h"
+#include "viewers/outputs.h"
 #include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
@@ -196,22 +197,25 @@ Json head(const Question& question, const Meter& meter) {
                      true, {meter.seconds(), meter.predicates()});
 }
 
-ExitStatus run_conservative(const StabOptions& options, const Question& question,
-                            const Meter& meter) {
+ExitStatus run_conservative(const StabOptions& options, Outputs& outputs,
+                            const Question& question, const Meter& meter) {
   SeparatingPlanesSequence sequence;
   for (std::size_t i = 0; i < question.portals.size(); ++i) push(sequence, question, i);
   Json answer = head(question, meter);
   answer["method"] = "conservative";
   answer["stabbable"] = sequence.maybe_stabbable();
-  write_answer(options, answer);
+  outputs.write_answer(answer);
   if (options.may_print()) print_summary(options, answer);
   return kAnswered;
 }
 
 ExitStatus run(const StabOptions& options) {
+  Outputs outputs(options);
   const Meter meter;
   const Question question = read_question(options.scene);
-  if (options.method == "conservative") return run_conservative(options, question, meter);
+  if (options.method == "conservative") {
+    return run_conservative(options, outputs, question, meter);
+  }
   PortalSequence sequence;
   Json pushes = Json::array();
   for (std::size_t i = 0; i < question.portals.size(); ++i) {
@@ -235,7 +239,7 @@ ExitStatus run(const StabOptions& options) {
   Json answer = head(question, meter);
   answer.update(found);
   if (!options.vtk.empty()) write_pictures(options, question, sequence);
-  write_answer(options, answer);
+  outputs.write_answer(answer);
   if (options.may_print()) print_summary(options, answer);
   return kAnswered;
 }
@@ -257,14 +261,14 @@ Command add_stab_command(CLI::App& app) {
       ->add_option("--method", options->method,
                    "exact, or conservative: by separating planes, which may call "
                    "stabbable what is not, and finds no lines")
-      ->check(CLI::IsMember({"exact", "conservative"}))
+      ->check(one_of({"exact", "conservative"}))
       ->capture_default_str();
   command->add_flag("--list", options->list,
                     "add every extremal stabbing line, with its contacts, to the answer");
   command
       ->add_option("--rungs", options->rungs,
                    "lines drawn of each EV and EEE family in --vtk files")
-      ->check(CLI::Range(2, 10000))
+      ->check(whole_number(2, 10000))
       ->capture_default_str();
   add_common_options(*command, *options);
   return [options] { return run(*options); };

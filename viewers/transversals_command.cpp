@@ -8,6 +8,7 @@
 #include "linespace/segment_transversals.h"
 #include "viewers/command_line.h"
 #include "viewers/json_input.h"
+#include "viewers/outputs.h"
 #include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
@@ -159,6 +160,7 @@ void print_summary(const TransversalsOptions& options, const Question& question,
 
 ExitStatus run(const TransversalsOptions& options) {
   const Interruption interruption;
+  Outputs outputs(options);
   const Meter meter;
   const Question question = read_question(options.scene);
   TransversalRequest request;
@@ -181,7 +183,7 @@ ExitStatus run(const TransversalsOptions& options) {
   answer["families"] = families_json(found);
   if (options.list) answer["list"] = list_json(question, found);
   if (!options.vtk.empty()) write_pictures(options.vtk, question, found);
-  write_answer(options, answer);
+  outputs.write_answer(answer);
   if (options.may_print()) print_summary(options, question, found, answer);
   return found.complete ? kAnswered : kPartial;
 }

@@ -14,7 +14,7 @@
 #include "viewers/clip.h"
 #include "viewers/command_line.h"
 #include "viewers/drawing.h"
-#include "viewers/output_file.h"
+#include "viewers/outputs.h"
 #include "viewers/skeleton_file.h"
 #include "viewers/vtk_export.h"
 #include "viewers/window.h"
@@ -52,7 +52,7 @@ struct Shown {
   std::vector<Stroke> strokes;
 };
 
-Shown read_shown(const fs::path& file) {
+Shown read_shown(const fs::path& file, Outputs& outputs) {
   const std::string extension = file.extension();
   if (extension == ".vtm" || extension == ".vtp") {
     VtkPicture picture = read_vtk(file);
@@ -62,6 +62,7 @@ Shown read_shown(const fs::path& file) {
   }
   if (extension == ".json") {
     StoredSkeleton stored = read_skeleton_json(file.string());
+    outputs.protect(stored.scene_file);
     Scene scene(read_mesh(stored.scene_file));
     check_fits(stored, scene);
     return {std::move(scene), std::move(stored.skeleton), {}, {}};
@@ -69,11 +70,8 @@ Shown read_shown(const fs::path& file) {
   return {Scene(read_mesh(file.string())), {}, {}, {}};
 }
 
-/// The three numbers of an option as a point.
-Point point_of(const std::vector<double>& numbers, const char* option) {
-  const Point p(numbers[0], numbers[1], numbers[2]);
-  if (!p.allFinite()) throw UsageError(fmt::format("{}: not a finite point", option));
-  return p;
+Point point_of(const std::vector<double>& numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 std::array<Point, 2> bounds_of(const Shown& shown) {
@@ -93,8 +91,8 @@ ViewOptions view_options_of(const ViewCommandOptions& options, const Shown& show
   if (options.eye.empty()) return view;
   const auto [low, high] = view.box ? *view.box : bounds_of(shown);
   const bool told = !options.look_at.empty();
-  view.look = {point_of(options.eye, "--eye"),
-               told ? point_of(options.look_at, "--look-at") : 0.5 * (low + high)};
+  view.look = {point_of(options.eye),
+               told ? point_of(options.look_at) : 0.5 * (low + high)};
   const double distance = (view.look->at - view.look->eye).norm();
   if (!(distance > 0)) {
     throw UsageError(told ? "--eye: is the same point as --look-at"
@@ -194,7 +192,8 @@ void check_kinds(const std::vector<std::string>& kinds, const Shown& shown) {
   }
 }
 
-void write_picture(const ViewCommandOptions& options, const Shown& shown) {
+void write_picture(const ViewCommandOptions& options, const Shown& shown,
+                   OutputFile& file) {
   check_kinds(options.kinds, shown);
   const ViewOptions view_options = view_options_of(options, shown);
   SceneView view = shown.scene ? view_scene(*shown.scene, view_options)
@@ -213,7 +212,8 @@ void write_picture(const ViewCommandOptions& options, const Shown& shown) {
   PictureOptions picture;
   picture.width = options.size[0];
   picture.height = options.size[1];
-  write_whole(options.png, encode_png(render(view.drawing, view.camera, picture)));
+  file.stream() << encode_png(render(view.drawing, view.camera, picture));
+  file.commit();
 }
 
 /// The window reads VTK files: others are written to a folder of our own first.
@@ -234,13 +234,18 @@ void open_window(const fs::path& file, const Shown& shown) {
 
 ExitStatus run(const ViewCommandOptions& options) {
   const fs::path file = file_of(options.what);
-  const Shown shown = read_shown(file);
-  if (!options.png.empty()) {
-    write_picture(options, shown);
-  } else if (has_display()) {
-    open_window(file, shown);
-  } else {
+  if (options.png.empty() && !has_display()) {
     throw UsageError("view: no DISPLAY for a window; use --png FILE");
+  }
+  Outputs outputs;
+  outputs.protect(file.string());
+  OutputFile* const png =
+      options.png.empty() ? nullptr : &outputs.add("--png", options.png);
+  const Shown shown = read_shown(file, outputs);
+  if (png != nullptr) {
+    write_picture(options, shown, *png);
+  } else {
+    open_window(file, shown);
   }
   return kAnswered;
 }
@@ -266,14 +271,14 @@ Command add_view_command(CLI::App& app) {
       ->add_option("--up", options->up,
                    "the axis that points up in the picture (default: guessed)")
       ->type_name("x|y|z")
-      ->check(CLI::IsMember({"x", "y", "z"}));
+      ->check(one_of({"x", "y", "z"}));
   command
       ->add_option("--size", options->size,
                    "width,height of the picture in pixels (default 1400,980)")
       ->type_name("W,H")
       ->delimiter(',')
       ->expected(2)
-      ->check(CLI::Range(16, 16384));
+      ->check(whole_number(16, 16384));
   command
       ->add_option(
           "--box", options->box,
@@ -284,6 +289,7 @@ Command add_view_command(CLI::App& app) {
       ->type_name("BOX")
       ->delimiter(',')
       ->expected(6)
+      ->check(finite_number())
       ->needs(png);
   command
       ->add_option("--kinds", options->kinds,
@@ -303,6 +309,7 @@ Command add_view_command(CLI::App& app) {
           ->type_name("POINT")
           ->delimiter(',')
           ->expected(3)
+          ->check(finite_number())
           ->needs(png);
   command
       ->add_option("--look-at", options->look_at,
@@ -311,6 +318,7 @@ Command add_view_command(CLI::App& app) {
       ->type_name("POINT")
       ->delimiter(',')
       ->expected(3)
+      ->check(finite_number())
       ->needs(eye);
   return [options] { return run(*options); };
 }

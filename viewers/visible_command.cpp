@@ -12,6 +12,7 @@
 #include "linespace/visibility_estimate.h"
 #include "viewers/command_line.h"
 #include "viewers/json_input.h"
+#include "viewers/outputs.h"
 #include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
@@ -111,6 +112,7 @@ std::vector<VisibilityQuestion> read_questions(const std::string& name) {
 
 ExitStatus run_questions(const VisibleOptions& options) {
   const Interruption interruption;
+  Outputs outputs(options);
   const Meter meter;
   const std::vector<VisibilityQuestion> questions = read_questions(options.scene);
   Json answers = Json::array();
@@ -149,7 +151,7 @@ ExitStatus run_questions(const VisibleOptions& options) {
       complete, {meter.seconds(), meter.predicates()});
   answer["answers"] = std::move(answers);
   answer["cost"] = cost_json(cost);
-  write_answer(options, answer);
+  outputs.write_answer(answer);
   if (options.may_print()) {
     std::cout << fmt::format("{}: {} visible, {} hidden, {} undecided\n  {:.3f} s\n",
                              options.scene, counts[0], counts[1], counts[2],
@@ -175,6 +177,7 @@ Json pair_json(const Scene& scene, const FaceVisibility& visibility,
 
 ExitStatus run_sampled(const VisibleOptions& options) {
   const Interruption interruption;
+  Outputs outputs(options);
   const Meter meter;
   const Scene scene(read_mesh(options.scene));
   const std::vector<int> as = scene.faces_named(options.a);
@@ -192,7 +195,7 @@ ExitStatus run_sampled(const VisibleOptions& options) {
   answer["fraction"] = estimate.fraction.value;
   answer["standard_error"] = estimate.fraction.standard_error;
   answer["interval"] = estimate.interval;
-  write_answer(options, answer);
+  outputs.write_answer(answer);
   if (options.may_print()) {
     std::cout << fmt::format(
         "{}: {} of {} random segments from {} to {} are free: {:.4g}, 95 % between "
@@ -223,6 +226,7 @@ void write_witnesses(const VisibleOptions& options, const Scene& scene,
 ExitStatus run_groups(const VisibleOptions& options) {
   if (options.method == "sampled") return run_sampled(options);
   const Interruption interruption;
+  Outputs outputs(options);
   const Meter meter;
   const Scene scene(read_mesh(options.scene));
   const std::vector<int> as = scene.faces_named(options.a);
@@ -256,7 +260,7 @@ ExitStatus run_groups(const VisibleOptions& options) {
     }
   }
   if (!options.vtk.empty()) write_witnesses(options, scene, group);
-  write_answer(options, answer);
+  outputs.write_answer(answer);
   if (options.may_print()) {
     const char* verdict = group.verdict == Verdict::Visible  ? "visible"
                           : group.verdict == Verdict::Hidden ? "hidden"
@@ -312,18 +316,19 @@ Command add_visible_command(CLI::App& app) {
                    "prove nothing hidden: of a scene's groups, the share that is free "
                    "(default exact)")
       ->type_name("exact|sampled")
-      ->check(CLI::IsMember({"exact", "sampled"}).description(""));
+      ->check(one_of({"exact", "sampled"}));
   command
       ->add_option(
           "--rays", options->rays,
           "number of random segments: of --method sampled (default 10000 between "
           "groups, 4096 between polygons), or tried first by exact (4096)")
       ->type_name("N")
-      ->check(CLI::PositiveNumber);
+      ->check(whole_number(1, std::numeric_limits<std::int64_t>::max()));
   command
       ->add_option("--seed", options->seed,
                    "of the random segments that are tried (default 1)")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(whole_number(0));
   command->add_flag("--all-pairs", options->all_pairs,
                     "decide every pair of faces of A and B, and list them");
   command->add_flag("--check", options->check,

@@ -7,6 +7,7 @@
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
 #include <vtkFieldData.h>
 #include <vtkInformation.h>
 #include <vtkIntArray.h>
@@ -20,6 +21,7 @@
 #include <vtkXMLMultiBlockDataReader.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
+#include <vtkXMLReader.h>
 
 #include <algorithm>
 #include <cmath>
@@ -278,6 +280,20 @@ void add_node_blocks(Blocks& blocks, const Skeleton& skeleton) {
   }
 }
 
+/// While it lives, VTK logs nothing: errors are asked of its readers and writers.
+class QuietVtk {
+ public:
+  QuietVtk() : before_(vtkObject::GetGlobalWarningDisplay()) {
+    vtkObject::SetGlobalWarningDisplay(0);
+  }
+  ~QuietVtk() { vtkObject::SetGlobalWarningDisplay(before_); }
+  QuietVtk(const QuietVtk&) = delete;
+  QuietVtk& operator=(const QuietVtk&) = delete;
+
+ private:
+  int before_;
+};
+
 /// How far the strips may be from the surfaces they stand for.
 void add_deviation(vtkPolyData* data, const Scene& scene) {
   vtkNew<vtkDoubleArray> deviation;
@@ -293,10 +309,25 @@ void write_poly_data(const std::filesystem::path& path, vtkPolyData* data) {
   writer->SetFileName(file.temporary_path().c_str());
   writer->SetInputData(data);
   writer->SetEncodeAppendedData(0);
-  if (writer->Write() == 0) {
-    throw OutputError(path.string() + ": cannot be written: VTK's writer failed");
+  const QuietVtk quiet;
+  const int written = writer->Write();  // not 0 on a full disk
+  if (written == 0 || writer->GetErrorCode() != vtkErrorCode::NoError) {
+    throw WriteError(
+        fmt::format("{}: could not be written to its end: {}", path.string(),
+                    vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
   }
   file.commit();
+}
+
+constexpr const char* kIndex = "sightline.vtm";
+
+/// Makes the folder.  An earlier index goes first, so that none lists files of two runs.
+void begin_folder(const std::filesystem::path& folder) {
+  make_folder(folder);
+  std::error_code error;
+  const bool ours = is_regular_file(symlink_status(folder / kIndex, error));
+  if (ours && !std::filesystem::remove(folder / kIndex, error) && error)
+    throw WriteError((folder / kIndex).string() + ": " + error.message());
 }
 
 /// The index of blocks.  Written by hand because VTK's own writer would put the pieces
@@ -401,16 +432,26 @@ void read_marks(VtkPicture& picture, vtkPolyData* data) {
   }
 }
 
+/// Refuses a file that VTK could not read to its end.
+void require_read(vtkXMLReader& reader, const std::filesystem::path& file) {
+  if (reader.GetErrorCode() == vtkErrorCode::NoError) return;
+  throw InvalidInput(
+      fmt::format("{}: VTK cannot read it: {}", file.string(),
+                  vtkErrorCode::GetStringFromErrorCode(reader.GetErrorCode())));
+}
+
 vtkSmartPointer<vtkPolyData> read_poly_data(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
     throw InvalidInput(file.string() + ": no such file");
   }
+  const QuietVtk quiet;
   vtkNew<vtkXMLPolyDataReader> reader;
   if (reader->CanReadFile(file.c_str()) == 0) {
     throw InvalidInput(file.string() + ": not a VTK PolyData file");
   }
   reader->SetFileName(file.c_str());
   reader->Update();
+  require_read(*reader, file);
   return reader->GetOutput();
 }
 
@@ -424,7 +465,7 @@ void require_content(const VtkPicture& picture) {
 
 std::vector<std::string> write_vtk(const std::filesystem::path& folder,
                                    const Scene& scene, const VtkContents& contents) {
-  make_folder(folder);
+  begin_folder(folder);
   std::vector<std::string> names{"scene", "edges"};
   write_poly_data(folder / "scene.vtp", scene_cells(scene));
   write_poly_data(folder / "edges.vtp", edge_cells(scene));
@@ -451,16 +492,16 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
       });
     }
   }
-  write_whole(folder / "sightline.vtm", multi_block_text(names));
+  write_whole(folder / kIndex, multi_block_text(names));
   std::vector<std::string> files;
   for (const std::string& name : names) files.push_back(name + ".vtp");
-  files.emplace_back("sightline.vtm");
+  files.emplace_back(kIndex);
   return files;
 }
 
 std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
                                          const std::vector<LineBlock>& blocks) {
-  make_folder(folder);
+  begin_folder(folder);
   std::vector<std::string> names;
   std::vector<std::string> files;
   for (const LineBlock& block : blocks) {
@@ -485,8 +526,8 @@ std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
     names.push_back(block.name);
     files.push_back(block.name + ".vtp");
   }
-  write_whole(folder / "sightline.vtm", multi_block_text(names));
-  files.emplace_back("sightline.vtm");
+  write_whole(folder / kIndex, multi_block_text(names));
+  files.emplace_back(kIndex);
   return files;
 }
 
@@ -503,12 +544,14 @@ VtkPicture read_vtk(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
     throw InvalidInput(file.string() + ": no such file");
   }
+  const QuietVtk quiet;
   vtkNew<vtkXMLMultiBlockDataReader> reader;
   if (reader->CanReadFile(file.c_str()) == 0) {
     throw InvalidInput(file.string() + ": not a VTK multi-block file");
   }
   reader->SetFileName(file.c_str());
   reader->Update();
+  require_read(*reader, file);
   auto* blocks = vtkMultiBlockDataSet::SafeDownCast(reader->GetOutput());
   for (unsigned i = 0; blocks != nullptr && i < blocks->GetNumberOfBlocks(); ++i) {
     auto* data = vtkPolyData::SafeDownCast(blocks->GetBlock(i));

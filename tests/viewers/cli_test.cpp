@@ -473,17 +473,17 @@ TEST_F(Pictures, FromTheChosenEye) {
 TEST_F(Pictures, BadBoxesEyesAndKindsAreNamed) {
   expect_view_refused(kRoom, {"--box", "0,0,0,1,1"}, "--box");
   expect_view_refused(kRoom, {"--box", "1,0,0,0,1,1"}, "--box: the first corner");
-  expect_view_refused(kRoom, {"--box", "0,0,0,1,1,inf"}, "--box: not six finite");
-  expect_view_refused(kRoom, {"--box", "0,0,0,1,nan,1"}, "--box: not six finite");
+  expect_view_refused(kRoom, {"--box", "0,0,0,1,1,inf"}, "is not a finite number");
+  expect_view_refused(kRoom, {"--box", "0,0,0,1,nan,1"}, "is not a finite number");
   expect_view_refused(kRoom, {"--box", "0,0,0,1,0,1"}, "--box: has no extent");
   expect_view_refused(kRoom, {"--box", "50,50,50,60,60,60"},
                       "spans -0.25,-0.25,-0.25,6.25,3,4.75");
   expect_view_refused(kRoom, {"--eye", "1,2"}, "--eye");
-  expect_view_refused(kRoom, {"--eye", "1,2,nan"}, "--eye: not a finite point");
+  expect_view_refused(kRoom, {"--eye", "1,2,nan"}, "is not a finite number");
   expect_view_refused(kRoom, {"--eye", "1,2,3", "--look-at", "1,2,3"},
                       "--eye: is the same point as --look-at");
   expect_view_refused(kRoom, {"--eye", "1,2,3", "--look-at", "1,2,-inf"},
-                      "--look-at: not a finite point");
+                      "is not a finite number");
   expect_view_refused(kRoom, {"--eye", "1e300,0,0"}, "--eye: is too far away");
   expect_view_refused(kRoom, {"--eye", "3,1.375,2.25"}, "say where to look with");
   expect_view_refused(kRoom, {"--look-at", "1,2,3"}, "--eye");

@@ -1,0 +1,49 @@
+// What a command writes: opened before it reads or computes anything.
+
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "viewers/command_line.h"
+#include "viewers/output_file.h"
+
+namespace sightline::viewers {
+
+/// The files and folders that the command line names for output.  Where the command ends
+/// without writing them, their names hold what they held before.
+class Outputs {
+ public:
+  Outputs() = default;
+  /// Opens --json's file and --vtk's folder, and protects options.scene.  Throws
+  /// OutputError.
+  explicit Outputs(const CommonOptions& options);
+
+  /// Opens the file that this option names.  Throws OutputError, also when another option
+  /// names the same file, or when it is a protected one.
+  OutputFile& add(const std::string& option, const std::string& file);
+  /// The file is read: throws OutputError when an output would replace it, under
+  /// whatever name.
+  void protect(const std::string& file);
+
+  /// --json's file; null when there is none.
+  [[nodiscard]] OutputFile* json() { return json_; }
+  /// Writes the answer where --json says, if anywhere.  Throws WriteError.
+  void write_answer(const Json& answer);
+
+ private:
+  struct Named {
+    std::string option;
+    std::unique_ptr<OutputFile> file;
+  };
+  static void refuse_input(const Named& output);
+
+  std::optional<OutputFolder> vtk_;
+  std::vector<Named> files_;
+  std::vector<std::string> inputs_;
+  OutputFile* json_ = nullptr;
+};
+
+}  // namespace sightline::viewers
