@@ -297,7 +297,7 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     const ExactPoint x = point_on(arc, cut);
     const ExactPoint& start = other ? *other : from;
     const LineScan scan(scene, faces_near_line(g, rounded(start), rounded(x)), start, x);
-    const NodeContacts all =
+    NodeContacts all =
         contacts_along(g, scan, {start, x}, node.end, view.grazes[id] != 0);
     if (all.generators.empty()) return;
     if (all.kind == node.kind && all.kind != NodeKind::Degenerate) {
@@ -314,7 +314,7 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
       node.end = all.end;
     }
     node.segment = all.segment;
-    view.lines[id] = all.line;
+    view.lines[id] = std::move(all.line);
     node.first_generator = static_cast<std::uint32_t>(view.pool.size());
     node.generator_count = static_cast<std::uint32_t>(all.generators.size());
     view.pool.insert(view.pool.end(), all.generators.begin(), all.generators.end());

@@ -13,6 +13,7 @@
 #include "skeleton/edge_view_internal.h"
 #include "skeleton/eee_curve_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/line_name_internal.h"
 #include "skeleton/line_probe_internal.h"
 #include "skeleton/pair_cells_internal.h"
 #include "skeleton/part_internal.h"
@@ -37,7 +38,7 @@ struct FoundNode {
   std::array<Point, 2> segment;
   /// Of a line with more contacts: all of them, in order; `generators` are not used.
   std::vector<Generator> all;
-  std::uint32_t line = 0;  ///< as of NodeContacts
+  LineName line;  ///< as of NodeContacts
 };
 
 struct FoundArc {

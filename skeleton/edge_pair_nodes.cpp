@@ -339,7 +339,7 @@ void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
   node.ends = all.ends;
   node.rising = all.second;
   node.all = all.generators;
-  node.line = all.line;
+  node.line = std::move(all.line);
   node.segment = all.segment;
 }
 

@@ -284,6 +284,22 @@ bool too_short(const std::array<double, 2>& range) {
   return range[1] - range[0] < 4 * kShortestPiece;
 }
 
+// The same faces are at the edge from end to end: it is no chain of several mesh edges.
+bool same_faces_along(const Scene& scene, int edge) {
+  const Edge& e = scene.edges()[edge];
+  return std::all_of(e.sides.begin(), e.sides.end(), [&](const Edge::Side& side) {
+    return has_point(scene, side.face, e.points[0]) &&
+           has_point(scene, side.face, e.points[1]);
+  });
+}
+
+std::vector<int> faces_at_edge(const Scene& scene, int edge) {
+  std::vector<int> faces;
+  for (const Edge::Side& side : scene.edges()[edge].sides) faces.push_back(side.face);
+  sort_unique(faces);
+  return faces;
+}
+
 // Whether the lines that support the ridge cannot meet the face elsewhere.
 bool of_own_solid(const Generators& g, const Ridge& r, int face) {
   const int object = g.scene().faces()[face].object;
@@ -643,14 +659,18 @@ Chains chains_of(const EeeFamily& family, const std::array<double, 2>& range) {
   return out;
 }
 
+// False when some sign is zero all along.
 template <class Family>
-bool add_beyond(const Generators& g, const Chains& chains, Family& family,
+bool add_beyond(const Generators& g, const Chains& chains,
+                const std::array<bool, 2>& ends, Family& family,
                 std::vector<Met<typename Family::CutType>>& met) {
-  for (const int f : faces_beyond(g, chains.last, chains.first, chains.error)) {
-    if (!family.add(f, 0, met)) return false;
-  }
-  for (const int f : faces_beyond(g, chains.first, chains.last, chains.error)) {
-    if (!family.add(f, 1, met)) return false;
+  for (int wing = 0; wing < 2; ++wing) {
+    if (ends[wing]) continue;
+    const auto& near = wing == 0 ? chains.first : chains.last;
+    const auto& far = wing == 0 ? chains.last : chains.first;
+    for (const int f : faces_beyond(g, far, near, chains.error)) {
+      if (!family.add(f, wing, met)) return false;
+    }
   }
   return true;
 }
@@ -661,6 +681,7 @@ std::optional<std::vector<FarPiece>> FarPieces::of(const SkeletonArc& arc) const
   const Star& star = g_.stars()[g_.star_of_point(arc.vertex)];
   if (star.touched || star.in_plane_only || too_short(arc.range)) return std::nullopt;
   if (g_.ridges()[g_.ridge_of_edge(arc.edge)].touched) return std::nullopt;
+  if (arc.ends[1] && !same_faces_along(g_.scene(), arc.edge)) return std::nullopt;
   EvFamily family(g_, arc);
   const Scene& scene = g_.scene();
   const Point& e0 = scene.point(scene.edges()[arc.edge].points[0]);
@@ -674,21 +695,46 @@ std::optional<std::vector<FarPiece>> FarPieces::of(const SkeletonArc& arc) const
     chains.last.push_back(at(arc.range[0] + (arc.range[1] - arc.range[0]) * k / n));
   }
   std::vector<Met<Cut>> met;
-  if (!add_beyond(g_, chains, family, met)) return std::nullopt;
+  if (!add_beyond(g_, chains, arc.ends, family, met)) return std::nullopt;
   return Envelope<EvFamily>(g_, family, met, arc.range).pieces();
 }
 
 std::optional<std::vector<FarPiece>> FarPieces::of(const EeeArc& arc) const {
   if (too_short(arc.range)) return std::nullopt;
+  for (int wing = 0; wing < 2; ++wing) {
+    if (arc.ends[wing] && !same_faces_along(g_.scene(), arc.edges[2 * wing])) {
+      return std::nullopt;
+    }
+  }
   EeeFamily family(g_, carriers_, arc);
   if (family.touched() || !family.prepare()) return std::nullopt;
   std::vector<Met<CurveCut>> met;
-  if (!add_beyond(g_, chains_of(family, arc.range), family, met)) return std::nullopt;
+  if (!add_beyond(g_, chains_of(family, arc.range), arc.ends, family, met)) {
+    return std::nullopt;
+  }
   auto pieces = Envelope<EeeFamily>(g_, family, met, arc.range).pieces();
   if (pieces && family.left_out()) {
     for (FarPiece& piece : *pieces) piece.bounds_all = false;
   }
   return pieces;
+}
+
+std::array<std::vector<int>, 2> FarPieces::end_faces(const SkeletonArc& arc) const {
+  std::array<std::vector<int>, 2> faces;
+  if (arc.ends[0]) {
+    const auto at = g_.scene().faces_at(arc.vertex);
+    faces[0].assign(at.begin(), at.end());
+  }
+  if (arc.ends[1]) faces[1] = faces_at_edge(g_.scene(), arc.edge);
+  return faces;
+}
+
+std::array<std::vector<int>, 2> FarPieces::end_faces(const EeeArc& arc) const {
+  std::array<std::vector<int>, 2> faces;
+  for (int wing = 0; wing < 2; ++wing) {
+    if (arc.ends[wing]) faces[wing] = faces_at_edge(g_.scene(), arc.edges[2 * wing]);
+  }
+  return faces;
 }
 
 std::vector<double> FarPieces::stops(const EeeArc& arc) const {

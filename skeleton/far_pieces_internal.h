@@ -7,6 +7,9 @@
 // nearest ends the free segment.  So the pieces are the lower envelope of these parts.
 // In general position nothing else can end it; every other position is told, and left to
 // the contact test.
+//
+// Where an outer contact is an end contact (polygon mode) the lines end in it, and
+// nothing is looked for beyond it.
 
 #pragma once
 
@@ -25,7 +28,7 @@ struct FarPiece {
   /// Parameters, off by at most kRangeError.
   std::array<double, 2> range;
   /// Before the first contact (the vertex of an EV arc), beyond the last; -1 for the
-  /// outside.
+  /// outside, and on the side on which the arc ends in its contact: end_faces().
   std::array<int, 2> faces;
   /// Certain that no line of the arc goes on farther than this and the neighbouring
   /// pieces say: not one where two pieces meet either, nor one at an end of the arc.
@@ -42,9 +45,15 @@ class FarPieces {
       : g_(generators), carriers_(carriers) {}
 
   /// The pieces in order, neighbours different; nullopt where some sign is zero all along
-  /// or two faces are met in one point: then the contacts have to be asked.
+  /// or two faces are met in one point, or where the faces at an end contact change along
+  /// the arc: then the contacts have to be asked.
   [[nodiscard]] std::optional<std::vector<FarPiece>> of(const SkeletonArc& arc) const;
   [[nodiscard]] std::optional<std::vector<FarPiece>> of(const EeeArc& arc) const;
+
+  /// The faces at the first, at the last contact, ascending, where it is an end contact;
+  /// empty where it is none.  Requires that of() has an answer.
+  [[nodiscard]] std::array<std::vector<int>, 2> end_faces(const SkeletonArc& arc) const;
+  [[nodiscard]] std::array<std::vector<int>, 2> end_faces(const EeeArc& arc) const;
 
   /// All parameters inside an arc's range where its far ends can change, in order,
   /// whatever the position; its ends included.

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <boost/functional/hash.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -224,20 +223,6 @@ bool two_on_one_object(const Generators& g,
   return false;
 }
 
-// Of the line's Pluecker coordinates, scaled to one of the directions being 1.
-std::uint32_t hash_of_line(const std::array<ExactPoint, 2>& line) {
-  ExactPoint way = exact_difference(line[1], line[0]);
-  const auto axis =
-      std::find_if(way.begin(), way.end(), [](const Rational& x) { return x != 0; });
-  const Rational scale = *axis;
-  for (Rational& x : way) x /= scale;
-  std::size_t hash = 0;
-  for (const ExactPoint& part : {way, exact_cross(line[0], way)}) {
-    for (const Rational& x : part) boost::hash_combine(hash, hash_value(x));
-  }
-  return static_cast<std::uint32_t>(hash ^ (hash >> 32));
-}
-
 NodeContacts node_of(const Generators& g,
                      const std::vector<std::vector<Generator>>& groups) {
   NodeContacts node;
@@ -400,7 +385,7 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   node.segment = {rounded(along(line[0], line[1], scan.from(first))),
                   rounded(along(line[0], line[1], scan.to(last)))};
   if (node.turned) std::swap(node.segment[0], node.segment[1]);
-  if (node.kind == NodeKind::Degenerate) node.line = hash_of_line(line);
+  if (node.kind == NodeKind::Degenerate) node.line = name_of_line(line);
   // A line along a face that ends where the face does.
   const bool stops = scan.blocked(first) || scan.blocked(last);
   node.end = end || (node.kind == NodeKind::FEE && stops);

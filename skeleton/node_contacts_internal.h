@@ -10,6 +10,7 @@
 
 #include "linespace/contact_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/line_name_internal.h"
 #include "skeleton/skeleton.h"
 
 namespace sightline::internal {
@@ -49,9 +50,8 @@ struct NodeContacts {
   /// Of an irrational line: which of the two through the same edges.
   bool second = false;
   /// Of a rational line that is Degenerate, of contacts_along(): tells it from others
-  /// that make the same contacts, as lines of a pencil may.  A hash of the exact line;
-  /// else 0.
-  std::uint32_t line = 0;
+  /// that make the same contacts, as lines of a pencil may; else empty.
+  LineName line;
   /// The outermost contacts, rounded, in the order of `generators`; of contacts_along().
   std::array<Point, 2> segment{Point::Zero(), Point::Zero()};
 };

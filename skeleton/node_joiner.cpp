@@ -8,14 +8,14 @@ namespace sightline::internal {
 
 std::uint32_t NodeJoiner::number(const SkeletonNode& node,
                                  std::span<const Generator> generators,
-                                 std::uint32_t line) {
+                                 std::string_view line) {
   return table_of(node.kind).find_or_add(node, generators, line,
                                          static_cast<std::uint32_t>(out_.nodes.size()));
 }
 
 std::uint32_t NodeJoiner::join(const SkeletonNode& node,
                                std::span<const Generator> generators, bool grazes,
-                               std::uint32_t line) {
+                               std::string_view line) {
   const std::uint32_t known = number(node, generators, line);
   if (known == out_.nodes.size()) return add(node, generators, grazes);
   found_again(known, node, generators, grazes);
@@ -42,7 +42,8 @@ std::uint32_t NodeJoiner::add(SkeletonNode node, std::span<const Generator> gene
 }
 
 void NodeJoiner::add_if_new(const SkeletonNode& node,
-                            std::span<const Generator> generators, std::uint32_t line) {
+                            std::span<const Generator> generators,
+                            std::string_view line) {
   if (number(node, generators, line) == out_.nodes.size()) add(node, generators, true);
 }
 

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "skeleton/node_table_internal.h"
@@ -17,15 +18,15 @@ namespace sightline::internal {
 class NodeJoiner {
  public:
   /// Keeps a reference, whose nodes and generators come from here alone.
-  explicit NodeJoiner(Skeleton& skeleton)
-      : out_(skeleton), lines_(skeleton), eeee_(skeleton) {}
+  explicit NodeJoiner(Skeleton& skeleton, std::uint32_t hash_mask = NodeTable::kAllBits)
+      : out_(skeleton), lines_(skeleton, hash_mask), eeee_(skeleton, hash_mask) {}
 
   /// The number of the line's node, which is as given where it is new (its generators'
   /// place aside).  `grazes`: an arc of solid mode ends there; what such arcs say of
   /// `end` and `ends` counts, and only where none ends there, what the others say.
   /// `line` is that of NodeContacts.
   std::uint32_t join(const SkeletonNode& node, std::span<const Generator> generators,
-                     bool grazes, std::uint32_t line = 0);
+                     bool grazes, std::string_view line = {});
   /// The same of a line that is found but once.
   std::uint32_t add(SkeletonNode node, std::span<const Generator> generators,
                     bool grazes);
@@ -51,7 +52,7 @@ class NodeJoiner {
 
   /// Adds the node if its line is new.
   void add_if_new(const SkeletonNode& node, std::span<const Generator> generators,
-                  std::uint32_t line);
+                  std::string_view line);
   /// From now on no EEEE line is found that was found before.
   void forget_eeee() { eeee_.clear(); }
 
@@ -64,7 +65,7 @@ class NodeJoiner {
     return kind == NodeKind::EEEE ? eeee_ : lines_;
   }
   std::uint32_t number(const SkeletonNode& node, std::span<const Generator> generators,
-                       std::uint32_t line);
+                       std::string_view line);
   void found_again(std::uint32_t number, const SkeletonNode& node,
                    std::span<const Generator> generators, bool grazes);
 

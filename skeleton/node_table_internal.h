@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "skeleton/skeleton.h"
@@ -12,21 +14,26 @@ namespace sightline::internal {
 
 /// A node is told from others by its kind and generators: of VV and Degenerate from
 /// either end, of FvE in any order; of EEEE and Degenerate also by `second`; of VV and
-/// FvE in solid mode by `end`; of Degenerate by NodeContacts::line, in 32 bits of hash:
-/// of two lines with the same generators one in 2^32 pairs is taken for the other.
+/// FvE in solid mode by `end`; of Degenerate by the whole NodeContacts::line.
 ///
 /// Open addressing with eight bytes a place, probed one after the other: skeletons have
-/// tens of millions of nodes.  What determines a node is read from the skeleton itself.
+/// tens of millions of nodes.  What determines a node is read from the skeleton itself,
+/// but for the names of lines, which are kept here: for each Degenerate node 16 bytes and
+/// its name, 17 bytes in a grid of whole numbers, 47 in a city of doubles (300 polygons
+/// each).  A hash only says where to look: nodes with the same one are compared.
 class NodeTable {
  public:
-  /// Keeps a reference, to which nodes are only appended.
-  explicit NodeTable(const Skeleton& skeleton) : skeleton_(skeleton) {}
+  static constexpr std::uint32_t kAllBits = 0xffffffff;
+  /// Keeps a reference, to which nodes are only appended.  Of hashes the bits in the mask
+  /// are used: all but in tests.
+  explicit NodeTable(const Skeleton& skeleton, std::uint32_t hash_mask = kAllBits)
+      : skeleton_(skeleton), hash_mask_(hash_mask) {}
 
   /// The number of the node that is known to be of this line; the first time `next`, the
   /// number of the node that is appended then.
   [[nodiscard]] std::uint32_t find_or_add(const SkeletonNode& node,
                                           std::span<const Generator> generators,
-                                          std::uint32_t line, std::uint32_t next);
+                                          std::string_view line, std::uint32_t next);
   void clear();
 
   /// Hints that a node will be asked for: to fetch its place, and then, a while later,
@@ -40,8 +47,13 @@ class NodeTable {
     std::uint32_t hash = 0, node = kFree;
   };
 
-  [[nodiscard]] bool same_line(const SkeletonNode& known, const SkeletonNode& node,
-                               std::span<const Generator> generators) const;
+  [[nodiscard]] bool same_line(std::uint32_t number, const SkeletonNode& node,
+                               std::span<const Generator> generators,
+                               std::string_view line) const;
+  [[nodiscard]] std::uint32_t hash_of(NodeKind kind,
+                                      std::span<const Generator> generators,
+                                      std::string_view line = {}) const;
+  [[nodiscard]] std::string_view name_of(std::uint32_t node) const;
   /// Where to look first: in the order of hashes, so that growing goes from front to
   /// back.
   [[nodiscard]] std::size_t home(std::uint32_t hash) const {
@@ -53,8 +65,16 @@ class NodeTable {
   void grow();
 
   const Skeleton& skeleton_;
+  std::uint32_t hash_mask_;
   std::vector<Place> places_;
   std::size_t used_ = 0;
+  /// Nodes whose lines have names, ascending, and where these begin in `names_`.
+  struct Named {
+    std::uint32_t node;
+    std::size_t start;
+  };
+  std::vector<Named> named_;
+  std::string names_;
 };
 
 }  // namespace sightline::internal

@@ -118,8 +118,12 @@ FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends =
 }  // namespace
 
 struct SkeletonLines::Impl {
+  // Arcs of polygon mode may have reflex edges, which generate nothing in solid mode.
   explicit Impl(const Scene& s)
-      : scene(s), generators(s, 1), carriers(generators), far(generators, carriers) {}
+      : scene(s),
+        generators(s, 1, EventMode::Polygon),
+        carriers(generators),
+        far(generators, carriers) {}
 
   [[nodiscard]] FreeSegment line(const ExactPoint& a, const ExactPoint& b,
                                  const std::array<bool, 2>& ends) const {
@@ -301,12 +305,14 @@ void append(std::vector<SkeletonLines::Piece>& pieces, SkeletonLines::Piece piec
 }
 
 std::vector<SkeletonLines::EndPiece> ends_of(
-    const std::vector<internal::FarPiece>& found) {
+    const std::vector<internal::FarPiece>& found,
+    const std::array<std::vector<int>, 2>& at_contacts) {
   std::vector<SkeletonLines::EndPiece> out;
   for (const auto& piece : found) {
     SkeletonLines::EndPiece& end = out.emplace_back();
     end.range = piece.range;
     end.bounds_all = piece.bounds_all;
+    end.faces = at_contacts;
     for (int i = 0; i < 2; ++i) {
       if (piece.faces[i] >= 0) end.faces[i].push_back(piece.faces[i]);
     }
@@ -345,12 +351,12 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const EeeArc& arc) const
 
 std::vector<SkeletonLines::EndPiece> SkeletonLines::ends(const SkeletonArc& arc) const {
   const auto found = impl_->far.of(arc);
-  return found ? ends_of(*found) : ends_of(pieces(arc));
+  return found ? ends_of(*found, impl_->far.end_faces(arc)) : ends_of(pieces(arc));
 }
 
 std::vector<SkeletonLines::EndPiece> SkeletonLines::ends(const EeeArc& arc) const {
   const auto found = impl_->far.of(arc);
-  return found ? ends_of(*found) : ends_of(pieces(arc));
+  return found ? ends_of(*found, impl_->far.end_faces(arc)) : ends_of(pieces(arc));
 }
 
 std::optional<FreeSegment> SkeletonLines::line(const Skeleton& skeleton,

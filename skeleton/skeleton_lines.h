@@ -47,7 +47,8 @@ class SkeletonLines {
   [[nodiscard]] std::vector<Piece> pieces(const EeeArc& arc) const;
 
   /// A piece without its line: the faces touched by the contact that ends it, before the
-  /// first contact (position 0) and beyond the last; empty for the outside.
+  /// first contact (position 0) and beyond the last; empty for the outside.  An end
+  /// contact ends its lines itself.
   struct EndPiece {
     std::array<double, 2> range;
     std::array<std::vector<int>, 2> faces;

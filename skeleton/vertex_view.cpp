@@ -34,7 +34,7 @@ std::uint32_t VertexView::add_node(NodeKind kind, bool self, bool end,
   pool.insert(pool.end(), generators.begin(), generators.end());
   nodes.push_back(node);
   special.push_back(kind == NodeKind::Degenerate);
-  lines.push_back(0);
+  lines.emplace_back();
   return static_cast<std::uint32_t>(nodes.size() - 1);
 }
 
@@ -92,14 +92,14 @@ void VertexView::keep_arcs(const std::vector<std::uint8_t>& flags) {
   std::vector<std::uint32_t> renamed(nodes.size(), kUnused);
   std::vector<SkeletonNode> used;
   std::vector<std::uint8_t> used_special;
-  std::vector<std::uint32_t> used_lines;
+  std::vector<LineName> used_lines;
   for (SkeletonArc& arc : arcs) {
     for (std::uint32_t& n : arc.nodes) {
       if (renamed[n] == kUnused) {
         renamed[n] = static_cast<std::uint32_t>(used.size());
         used.push_back(nodes[n]);
         used_special.push_back(special[n]);
-        used_lines.push_back(lines[n]);
+        used_lines.push_back(std::move(lines[n]));
       }
       n = renamed[n];
     }

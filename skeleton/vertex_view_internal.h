@@ -11,6 +11,7 @@
 
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/line_name_internal.h"
 #include "skeleton/line_probe_internal.h"
 #include "skeleton/occluders_internal.h"
 #include "skeleton/part_internal.h"
@@ -34,7 +35,7 @@ struct VertexView {
   /// Of the arcs, while it is built: found among zero signs.
   std::vector<std::uint8_t> special_arcs;
   /// Of the nodes: as of NodeContacts.
-  std::vector<std::uint32_t> lines;
+  std::vector<LineName> lines;
   /// Of the nodes: an arc of solid mode ends there, or for EVE nodes two line up.
   std::vector<std::uint8_t> grazes;
   /// EVE nodes, by positions on the edges of two arcs.

@@ -91,7 +91,11 @@ struct Found {
 
 struct ViewEvents::Impl {
   Impl(const Scene& s, const Skeleton& k, const EndIndex& e)
-      : scene(s), skeleton(k), ends(e), generators(s, 1), carriers(generators) {}
+      : scene(s),
+        skeleton(k),
+        ends(e),
+        generators(s, 1, k.events),
+        carriers(generators) {}
 
   struct Path {
     Point a, b;
@@ -160,6 +164,7 @@ struct ViewEvents::Impl {
     } else {
       return;
     }
+    if (arc.ends[side]) return;  // the line ends before it comes to the viewpoint
     const internal::Cut s =
         internal::make_cut(internal::CutKind::Side, -1, {}, orient3d_value(v, a, b, e0),
                            orient3d_value(v, a, b, e1));
@@ -217,8 +222,11 @@ struct ViewEvents::Impl {
     const auto scan = [&](const ExactPoint& p, const ExactPoint& q) {
       return LineScan(scene, faces_near_line(generators, rounded(p), rounded(q)), p, q);
     };
-    const bool free =
-        is_free(scan(v, contact)) && free_between(scan(side == 1 ? contact : v, x));
+    const LineScan between = scan(v, contact);
+    const bool as_arc = arc.ends == std::array<bool, 2>{}
+                            ? is_free(between)
+                            : blocked_ends(generators, between) == arc.ends;
+    const bool free = as_arc && free_between(scan(side == 1 ? contact : v, x));
     return free ? Answer::Yes : Answer::No;
   }
 
@@ -227,6 +235,7 @@ struct ViewEvents::Impl {
   struct Triple {
     std::array<LineThrough, 3> lines;
     std::array<const internal::Ridge*, 3> ridges;
+    std::array<bool, 3> ends;  // that is an end contact
   };
 
   void cross_eee(const Path& path, std::uint32_t id, std::vector<Found>& out) const {
@@ -243,7 +252,7 @@ struct ViewEvents::Impl {
     all.lo = std::max(0.0, arc.range[0] - 2 * kRangeError);
     all.hi = std::min(1.0, arc.range[1] + 2 * kRangeError);
     if (curve.misses(all, by_path)) return;
-    Triple triple;
+    Triple triple{{}, {}, {arc.ends[0], false, arc.ends[1]}};
     for (int i = 0; i < 3; ++i) {
       const auto e = edge(arc.edges[i]);
       triple.lines[i] = {e[0], e[1]};
@@ -296,6 +305,7 @@ struct ViewEvents::Impl {
     } else {
       return;
     }
+    if (arc.ends[side]) return;  // the line ends before it comes to the viewpoint
     const Enclosure s = parameter_of(p, line.contact(p));
     Answer answer = inside(s, arc.range);
     if (answer == Answer::No) return;
@@ -323,16 +333,21 @@ struct ViewEvents::Impl {
                   [&] { return plane_sign_at(line, path.line(), end); });
   }
 
-  // The line supports at all three edges, and crosses no face's inside on its way.
+  // The line grazes or ends at the three edges as those of the arc do, and crosses no
+  // face's inside on its way.
   [[nodiscard]] Answer reaches_exactly(const Path& path, const Triple& triple,
                                        const ExactLine& line, int side) const {
-    for (const internal::Ridge* r : triple.ridges) {
+    for (int i = 0; i < 3; ++i) {
+      const internal::Ridge* r = triple.ridges[i];
+      // Of an edge with a ridge for each of its gaps the right one is not known here.
+      if (triple.ends[i] && scene.edges()[r->edge].sides.size() > 2) continue;
       const auto plane = [&](int k) {
         return PlaneThrough{scene.point(r->points[1 - k]), scene.point(r->points[k]),
                             scene.point(r->thirds[k])};
       };
       const Sign heading = line.heads(plane(0));
-      if (heading != Sign::Zero && heading == line.heads(plane(1))) return Answer::No;
+      const bool through = heading != Sign::Zero && heading == line.heads(plane(1));
+      if (through != triple.ends[i]) return Answer::No;
     }
     const LineThrough& far = triple.lines[side == 1 ? 0 : 2];
     const auto faces = faces_near_line(generators, line.contact(far).point,

@@ -540,7 +540,10 @@ void viewing_boxes(const Scene& scene, const Skeleton& skeleton, const EndIndex&
   const auto pieces = ends.pieces(arc);
   const bool told =
       !pieces.empty() && ends.bounds_all(arc) && !beside_another(skeleton, arc);
+  const auto& ended = arc.kind == ArcKind::EV ? skeleton.arcs[arc.id].ends
+                                              : skeleton.eee_arcs[arc.id].ends;
   for (int wing = 0; wing < 2; ++wing) {
+    if (ended[wing]) continue;  // nobody beyond an end contact sees the arc
     Boxes boxes(family, wing, fine, out);
     if (!told) {
       boxes.add(family.range[0], family.range[1], std::nullopt);

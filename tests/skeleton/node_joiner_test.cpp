@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <string>
 #include <tuple>
 #include <vector>
 
+#include "skeleton/node_contacts_internal.h"
 #include "skeleton/node_joiner_internal.h"
 #include "tests/support/generators.h"
 
@@ -51,12 +53,59 @@ TEST(NodeJoiner, LinesWithTheSameGeneratorsAreToldApartByTheirLines) {
   Skeleton skeleton;
   NodeJoiner nodes(skeleton);
   const Generators contacts{edge(1), facet(2), facet(3)};
-  const auto first = nodes.join(node(NodeKind::Degenerate), contacts, true, 17);
-  EXPECT_NE(nodes.join(node(NodeKind::Degenerate), contacts, true, 18), first);
+  const auto first = nodes.join(node(NodeKind::Degenerate), contacts, true, "17");
+  EXPECT_NE(nodes.join(node(NodeKind::Degenerate), contacts, true, "18"), first);
   EXPECT_EQ(nodes.join(node(NodeKind::Degenerate),
-                       Generators(contacts.rbegin(), contacts.rend()), true, 17),
+                       Generators(contacts.rbegin(), contacts.rend()), true, "17"),
             first);
   EXPECT_EQ(skeleton.nodes.size(), 2U);
+}
+
+// All hashes are 0: only what nodes are tells them apart.
+TEST(NodeJoiner, NothingDependsOnHashes) {
+  Skeleton skeleton;
+  NodeJoiner nodes(skeleton, 0);
+  testing::Random random(2);
+  std::map<std::tuple<Generators, std::string>, std::uint32_t> known;
+  for (int i = 0; i < 4000; ++i) {
+    const Generators contacts{edge(random.integer(0, 3)), facet(5), facet(9)};
+    const std::string line(static_cast<std::size_t>(random.integer(0, 40)), 'x');
+    const auto number = nodes.join(node(NodeKind::Degenerate), contacts, true, line);
+    const auto [at, is_new] =
+        known.try_emplace({contacts, line}, static_cast<std::uint32_t>(known.size()));
+    ASSERT_EQ(number, at->second);
+  }
+  EXPECT_GT(known.size(), 150U);
+}
+
+// The name of a line through two points, and through two others of it.
+TEST(LineName, IsOneForEachLine) {
+  testing::Random random(3);
+  std::map<std::string, int> names;
+  int lines = 0;
+  const auto point = [&] {
+    return exact_point({double(random.integer(-3, 3)), double(random.integer(-3, 3)),
+                        random.integer(-3, 3) / 4.0});
+  };
+  for (int i = 0; i < 2000; ++i) {
+    const ExactPoint a = point(), b = point();
+    if (a == b) continue;
+    const LineName name = name_of_line({a, b});
+    ++lines;
+    const Rational s(random.integer(-20, 20), random.integer(1, 9));
+    const Rational t = s + Rational(random.integer(1, 20), 7);
+    EXPECT_EQ(name_of_line({along(a, b, s), along(a, b, t)}), name);
+    EXPECT_EQ(name_of_line({along(a, b, t), along(a, b, s)}), name);
+    // Another line through the same point, or in the same direction.
+    ExactPoint off = b;
+    off[i % 3] += Rational(1, 1 << 30) / Rational(1LL << 60);
+    const ExactPoint way = exact_difference(off, b);
+    if (exact_cross(exact_difference(b, a), way) == ExactPoint{}) continue;
+    EXPECT_NE(name_of_line({a, off}), name);
+    const ExactPoint beside{a[0] + way[0], a[1] + way[1], a[2] + way[2]};
+    EXPECT_NE(name_of_line({beside, off}), name);
+  }
+  EXPECT_GT(lines, 1900);
 }
 
 TEST(NodeJoiner, LinesOfOtherGeneratorsOrKindsAreOtherNodes) {
