@@ -51,6 +51,14 @@ std::string quoted(std::string_view text) {
   return shown + (text.size() > kShown ? "...'" : "'");
 }
 
+std::string one_line(std::string text) {
+  constexpr std::size_t kShown = 200;
+  while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' '; }, ' ');
+  return text.size() > kShown ? text.substr(0, kShown) + "..." : text;
+}
+
 std::optional<double> parse_double(std::string_view token) {
   if (token.starts_with('+')) token.remove_prefix(1);
   double value = 0;
@@ -71,6 +79,27 @@ std::optional<long long> parse_integer(std::string_view token) {
   return value;
 }
 
+bool is_number(std::string_view token) {
+  if (token.starts_with('+') || token.starts_with('-')) token.remove_prefix(1);
+  if (token.empty() || token.front() == '+' || token.front() == '-') return false;
+  double value = 0;
+  const char* const end = token.data() + token.size();
+  const auto result = std::from_chars(token.data(), end, value);
+  if (result.ec == std::errc::invalid_argument) return false;
+  // "1.#QNAN": from_chars stops at the '#', which digits or letters follow.
+  const std::string_view rest(result.ptr, static_cast<std::size_t>(end - result.ptr));
+  return rest.empty() || (rest.size() > 1 && rest.front() == '#' &&
+                          std::all_of(rest.begin() + 1, rest.end(), [](unsigned char c) {
+                            return std::isalnum(c) != 0;
+                          }));
+}
+
+std::string_view without_byte_order_mark(std::string_view text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+  return text;
+}
+
 bool LineReader::next() {
   if (rest_.empty()) return false;
   const std::size_t end = rest_.find_first_of("\r\n");
@@ -88,7 +117,7 @@ bool LineReader::next() {
 
 bool LineReader::next_filled(char comment) {
   while (next()) {
-    line_ = line_.substr(0, line_.find(comment));
+    cut_at(comment);
     if (!rest().empty()) return true;
   }
   return false;
@@ -103,6 +132,11 @@ std::string_view LineReader::rest() const {
   while (!text.empty() && is_blank(text.front())) text.remove_prefix(1);
   while (!text.empty() && is_blank(text.back())) text.remove_suffix(1);
   return text;
+}
+
+void LineReader::pass(std::size_t characters) {
+  line_ = rest();
+  line_.remove_prefix(std::min(characters, line_.size()));
 }
 
 std::string_view LineReader::token() {
@@ -122,6 +156,12 @@ double LineReader::number(const char* what) {
   return *value;
 }
 
+void LineReader::skip_number(const char* what) {
+  const std::string_view text = token();
+  if (text.empty()) refuse(std::string(what) + " is missing");
+  if (!is_number(text)) refuse(std::string(what) + " is no number: " + quoted(text));
+}
+
 long long LineReader::integer(const char* what) {
   const std::string_view text = token();
   if (text.empty()) refuse(std::string(what) + " is missing");
@@ -133,6 +173,17 @@ long long LineReader::integer(const char* what) {
 void LineReader::end_of_line() {
   const std::string_view text = token();
   if (!text.empty()) refuse("unexpected " + quoted(text));
+}
+
+void append_strip_triangle(std::vector<std::vector<int>>& polygons,
+                           std::span<const int> strip) {
+  const std::size_t n = strip.size();
+  if (n < 3) return;
+  int a = strip[n - 3], b = strip[n - 2];
+  const int c = strip[n - 1];
+  if (a == b || b == c || a == c) return;
+  if (n % 2 == 0) std::swap(a, b);
+  polygons.push_back({a, b, c});
 }
 
 namespace {
@@ -151,7 +202,10 @@ struct Format {
   PolygonSoup (*read)(const std::string& path, std::string_view bytes);
 };
 constexpr Format kFormats[] = {
-    {"obj", read_obj}, {"off", read_off}, {"ply", read_ply}, {"stl", read_stl}};
+#ifdef SIGHTLINE_HAS_TINYGLTF
+    {"glb", read_gltf}, {"gltf", read_gltf},
+#endif
+    {"obj", read_obj},  {"off", read_off},   {"ply", read_ply}, {"stl", read_stl}};
 
 }  // namespace
 }  // namespace internal

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "linespace/mesh_io_internal.h"
+#include "linespace/mesh_io_nodes_internal.h"
 
 #ifdef SIGHTLINE_HAS_ASSIMP
 #include <assimp/postprocess.h>
@@ -14,7 +15,6 @@
 #include <Eigen/Geometry>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
-#include <unordered_map>
 #endif
 
 namespace sightline::internal {
@@ -43,8 +43,7 @@ Eigen::Affine3d upright(const Eigen::Affine3d& root) {
 }
 
 // Walks the tree of nodes: their transformations are composed in double, which assimp's
-// own flattening does in single precision, and their names make the groups.  A node's
-// group has the faces of all nodes below it.
+// own flattening does in single precision, and their names make the groups.
 class SceneWalker {
  public:
   SceneWalker(const std::string& path, const aiScene& scene)
@@ -55,18 +54,11 @@ class SceneWalker {
       const Eigen::Affine3d root = transformation(scene_.mRootNode->mTransformation);
       visit(*scene_.mRootNode, is_ifc ? upright(root) : root);
     }
-    name_groups();
+    soup_.groups = groups_.groups();
     return std::move(soup_);
   }
 
  private:
-  // The faces [first, last) of a node and of all below it.
-  struct NamedRange {
-    std::string name;
-    int first, last;
-    bool is_root;
-  };
-
   void visit(const aiNode& node, const Eigen::Affine3d& to_world) {
     const int first = static_cast<int>(soup_.polygons.size());
     for (unsigned i = 0; i < node.mNumMeshes; ++i) {
@@ -77,35 +69,7 @@ class SceneWalker {
       visit(child, to_world * transformation(child.mTransformation));
     }
     const int last = static_cast<int>(soup_.polygons.size());
-    const std::string name = node.mName.C_Str();
-    if (last > first && !name.empty()) {
-      ranges_.push_back({name, first, last, node.mParent == nullptr});
-    }
-  }
-
-  // A face's object is the first group that lists it: of the nodes above it the nearest
-  // whose name is its own; names that several nodes bear ("IfcMappedItem") and the root's
-  // come last.  Children stand before their parents in `ranges_`.
-  void name_groups() {
-    std::unordered_map<std::string, int> uses;
-    for (const auto& range : ranges_) ++uses[range.name];
-    const auto rank = [&](const NamedRange& range) {
-      return range.is_root ? 2 : uses[range.name] > 1 ? 1 : 0;
-    };
-    std::stable_sort(ranges_.begin(), ranges_.end(),
-                     [&](const auto& a, const auto& b) { return rank(a) < rank(b); });
-    std::unordered_map<std::string, std::size_t> numbers;
-    for (const auto& range : ranges_) {
-      const auto [entry, is_new] = numbers.emplace(range.name, soup_.groups.size());
-      if (is_new) soup_.groups.push_back({range.name, {}});
-      auto& faces = soup_.groups[entry->second].faces;
-      for (int f = range.first; f < range.last; ++f) faces.push_back(f);
-    }
-    for (auto& group : soup_.groups) {
-      std::sort(group.faces.begin(), group.faces.end());
-      group.faces.erase(std::unique(group.faces.begin(), group.faces.end()),
-                        group.faces.end());
-    }
+    groups_.add(node.mName.C_Str(), first, last, node.mParent == nullptr);
   }
 
   void append(const aiMesh& mesh, const Eigen::Affine3d& to_world) {
@@ -135,46 +99,8 @@ class SceneWalker {
   const std::string& path_;
   const aiScene& scene_;
   PolygonSoup soup_;
-  std::vector<NamedRange> ranges_;
+  NodeGroups groups_;
 };
-
-std::uint64_t little_endian(std::string_view bytes, std::size_t at) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 4; i-- > 0;) {
-    value = 256 * value + static_cast<unsigned char>(bytes[at + i]);
-  }
-  return value;
-}
-
-// Refuses a binary glTF file that announces more bytes than it has: assimp makes room for
-// what a chunk announces, gigabytes at worst, before it reads.  What is no binary glTF is
-// left to assimp.  The first length of version 1 stands where that of version 2 does.
-void check_glb(const std::string& path, std::string_view bytes) {
-  constexpr std::size_t kHeader = 12;  // "glTF", version, bytes in all
-  constexpr std::size_t kChunkHeader = 8;
-  if (!bytes.starts_with("glTF")) return;
-  const auto announces = [&](const std::string& what, std::uint64_t count,
-                             std::uint64_t there) {
-    if (count <= there) return;
-    refuse(path, "announces " + what + std::to_string(count) + " bytes, but has " +
-                     std::to_string(there));
-  };
-  if (bytes.size() < kHeader + kChunkHeader) refuse(path, "ends inside the header");
-  announces("", little_endian(bytes, 8), bytes.size());
-  const bool has_chunks = little_endian(bytes, 4) >= 2;
-  std::size_t at = kHeader;
-  do {
-    const std::uint64_t length = little_endian(bytes, at);
-    announces("a chunk of ", length, bytes.size() - at - kChunkHeader);
-    at += kChunkHeader + (length + 3) / 4 * 4;  // chunks start at multiples of four
-  } while (has_chunks && at + kChunkHeader <= bytes.size());
-}
-
-std::string one_line(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
-  return text;
-}
 
 }  // namespace
 
@@ -184,7 +110,6 @@ PolygonSoup read_with_assimp(const std::string& path, const std::string& extensi
     refuse(path, "no mesh format is known by the extension " + quoted(extension));
   }
   if (extension == "ifc") check_step(path, load_file(path));
-  if (extension == "glb") check_glb(path, load_file(path));
   try {
     Assimp::Importer importer;
     // Polygons stay whole where the format has them: Scene cuts them exactly.

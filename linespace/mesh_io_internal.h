@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -17,6 +18,9 @@ namespace sightline::internal {
 
 /// The bytes of a file that is not empty.
 [[nodiscard]] std::string load_file(const std::string& path);
+
+/// The text without the UTF-8 byte order mark that editors of Windows put before it.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
 
 /// Walks over the lines of a text; `\r\n` and `\r` end a line as `\n` does.
 class LineReader {
@@ -37,10 +41,18 @@ class LineReader {
   /// Bytes after the current line.
   [[nodiscard]] std::size_t bytes_left() const { return rest_.size(); }
 
+  /// Leaves out the rest of the current line from the first `comment` on.
+  void cut_at(char comment) { line_ = line_.substr(0, line_.find(comment)); }
+
+  /// Passes over the next characters of the line that are no surrounding blanks.
+  void pass(std::size_t characters);
   /// The next token of the line, empty at its end.
   std::string_view token();
   /// A finite number; refuses anything else, naming `what`.
   double number(const char* what);
+  /// Passes over any number, one that is not finite or does not fit included; refuses
+  /// anything else, naming `what`.
+  void skip_number(const char* what);
   /// A whole number that fits; refuses anything else, naming `what`.
   long long integer(const char* what);
   /// Requires that the line has no further token.
@@ -60,12 +72,25 @@ class LineReader {
 [[nodiscard]] std::optional<double> parse_double(std::string_view token);
 [[nodiscard]] std::optional<long long> parse_integer(std::string_view token);
 
+/// Whether the token is a number in any spelling that is met: "1e999", "inf", "-nan(ind)"
+/// and what Microsoft's library wrote for these ("-1.#IND", "1.#QNAN", "1.#INF").
+[[nodiscard]] bool is_number(std::string_view token);
+
+/// A message of a library as one line of at most 200 characters.
+[[nodiscard]] std::string one_line(std::string text);
+
 /// A token or line as it may stand in a message: printable, shortened.
 [[nodiscard]] std::string quoted(std::string_view text);
+
+/// The triangle that the last corner of a strip adds, if it adds any: corners that are
+/// repeated to join strips make none.
+void append_strip_triangle(std::vector<std::vector<int>>& polygons,
+                           std::span<const int> strip);
 
 [[nodiscard]] PolygonSoup read_obj(const std::string& path, std::string_view text);
 [[nodiscard]] PolygonSoup read_off(const std::string& path, std::string_view text);
 [[nodiscard]] PolygonSoup read_ply(const std::string& path, std::string_view bytes);
+[[nodiscard]] PolygonSoup read_gltf(const std::string& path, std::string_view bytes);
 [[nodiscard]] PolygonSoup read_stl(const std::string& path, std::string_view bytes);
 
 /// Refuses an IFC file that ends early, is no text, or names records that it lacks.

@@ -12,25 +12,42 @@ namespace {
 
 // Statements that say nothing about polygons; any other unknown word is refused, because
 // it means that the file is damaged or no OBJ.
-constexpr std::array<std::string_view, 41> kIgnored{
-    "bevel",    "bmat",       "bsp",    "bzp",    "c_interp", "call", "cdc",
-    "cdp",      "con",        "csh",    "cstype", "ctech",    "curv", "curv2",
-    "d_interp", "deg",        "end",    "hole",   "l",        "lod",  "maplib",
-    "mg",       "mtllib",     "p",      "parm",   "res",      "s",    "scrv",
-    "sh",       "shadow_obj", "sp",     "stech",  "step",     "surf", "trace_obj",
-    "trim",     "usemap",     "usemtl", "vn",     "vp",       "vt"};
+constexpr std::array<std::string_view, 35> kIgnored{
+    "bevel", "bmat",   "c_interp", "cdc",        "con", "cstype", "ctech",
+    "curv",  "curv2",  "d_interp", "deg",        "end", "hole",   "l",
+    "lod",   "maplib", "mg",       "mtllib",     "p",   "parm",   "res",
+    "s",     "scrv",   "sh",       "shadow_obj", "sp",  "stech",  "step",
+    "trim",  "usemap", "usemtl",   "trace_obj",  "vn",  "vp",     "vt"};
+
+// Statements that make surfaces which are not read here: without them the scene has
+// holes.
+struct Unread {
+  std::string_view word, what;
+};
+constexpr std::array<Unread, 6> kUnread{{{"surf", "free-form surfaces"},
+                                         {"bsp", "B-spline patches"},
+                                         {"bzp", "Bezier patches"},
+                                         {"cdp", "Cardinal patches"},
+                                         {"call", "statements of other files"},
+                                         {"csh", "commands of the shell"}}};
+
+// What names begin with; a '#' inside a name is the name's.
+bool takes_names(std::string_view word) {
+  return word == "o" || word == "g" || word == "usemtl" || word == "mtllib";
+}
 
 class ObjReader {
  public:
   ObjReader(const std::string& path, std::string_view text)
-      : path_(path), lines_(path, text) {}
+      : path_(path), lines_(path, without_byte_order_mark(text)) {}
 
   PolygonSoup read() {
-    while (lines_.next_filled('#')) {
+    while (lines_.next_filled()) {
+      cut_comment(lines_);
       // A backslash at the end continues the statement on the next line.
       if (lines_.rest().ends_with('\\')) {
         read_continued();
-      } else {
+      } else if (!lines_.rest().empty()) {
         read_statement(lines_);
       }
     }
@@ -46,6 +63,12 @@ class ObjReader {
   }
 
  private:
+  // A comment is a line of its own or follows numbers.
+  static void cut_comment(LineReader& line) {
+    LineReader words = line;
+    if (!takes_names(words.token())) line.cut_at('#');
+  }
+
   void read_continued() {
     const std::size_t first = lines_.number();
     std::string joined;
@@ -57,7 +80,9 @@ class ObjReader {
       if (!more || !lines_.next()) break;
     }
     LineReader statement(path_, joined, first);
-    if (statement.next_filled('#')) read_statement(statement);
+    if (!statement.next_filled()) return;
+    cut_comment(statement);
+    if (!statement.rest().empty()) read_statement(statement);
   }
 
   void read_statement(LineReader& line) {
@@ -69,16 +94,34 @@ class ObjReader {
     } else if (word == "f" || word == "fo") {
       read_face(line);
     } else if (word == "g") {
-      groups_.clear();
-      for (auto name = line.token(); !name.empty(); name = line.token()) {
-        groups_.push_back(group_named(std::string(name)));
-        from_g_[groups_.back()] = true;
-      }
+      read_groups(line);
     } else if (word == "o") {
       groups_.clear();
       object_ = line.rest().empty() ? -1 : group_named(std::string(line.rest()));
     } else if (std::find(kIgnored.begin(), kIgnored.end(), word) == kIgnored.end()) {
+      for (const Unread& unread : kUnread) {
+        if (word != unread.word) continue;
+        line.refuse(std::string(unread.what) + " are not read here: " + quoted(word));
+      }
       line.refuse("no OBJ statement: " + quoted(word));
+    }
+  }
+
+  // Names of groups, separated by blanks.  From the first one after a name that begins
+  // with
+  // '#' on, the line belongs to that name ("g Part #1" is one group).
+  void read_groups(LineReader& line) {
+    groups_.clear();
+    while (!line.rest().empty()) {
+      const std::string_view all = line.rest();
+      std::string_view name = line.token();
+      if (line.rest().starts_with('#')) {
+        name = all;
+        while (!line.token().empty()) {
+        }
+      }
+      groups_.push_back(group_named(std::string(name)));
+      from_g_[groups_.back()] = true;
     }
   }
 

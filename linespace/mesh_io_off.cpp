@@ -1,4 +1,7 @@
 // Object File Format: ASCII, with or without colours and normals, a line per element.
+//
+// The word OFF may be left out, or the counts may follow it without a blank ("OFF8 6
+// 12"), as in the files of a well-known collection of shapes.
 
 #include <limits>
 
@@ -7,12 +10,39 @@
 namespace sightline::internal {
 namespace {
 
-// OFF, optionally after ST, C, N in this order: more numbers follow the coordinates.
-bool is_supported_header(std::string_view word) {
-  for (const std::string_view prefix : {"ST", "C", "N"}) {
-    if (word.starts_with(prefix)) word.remove_prefix(prefix.size());
+// Length of the word at the beginning of `text`: OFF, optionally after ST, C and N, each
+// of which says that more numbers follow the coordinates.  0 if there is no such word.
+std::size_t header_length(std::string_view text) {
+  constexpr std::string_view kWord = "OFF";
+  std::string_view rest = text;
+  for (bool found = true; found;) {
+    found = false;
+    for (const std::string_view prefix : {"ST", "C", "N"}) {
+      if (!rest.starts_with(prefix)) continue;
+      rest.remove_prefix(prefix.size());
+      found = true;
+    }
   }
-  return word == "OFF";
+  return rest.starts_with(kWord) ? text.size() - rest.size() + kWord.size() : 0;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+// Moves on to the line with the counts, past the header's word if there is one.
+void pass_header(const std::string& path, LineReader& lines) {
+  if (!lines.next_filled('#')) refuse(path, "no OFF header");
+  const std::string_view line = lines.rest();
+  if (is_digit(line.front())) return;
+  LineReader words = lines;
+  const std::string_view word = words.token();
+  const std::size_t length = header_length(word);
+  const std::string_view glued = word.substr(length);
+  if (length == 0 || (!glued.empty() && !is_digit(glued.front()))) {
+    lines.refuse("no OFF header that is read here: " + quoted(word));
+  }
+  if (words.rest() == "BINARY") lines.refuse("binary OFF is not read here");
+  lines.pass(length);
+  if (lines.rest().empty() && !lines.next_filled('#')) refuse(path, "no counts");
 }
 
 // An element takes at least `bytes` bytes with its line end (the last may lack it).
@@ -28,14 +58,8 @@ void check_count(const LineReader& lines, long long count, std::size_t bytes,
 }  // namespace
 
 PolygonSoup read_off(const std::string& path, std::string_view text) {
-  LineReader lines(path, text);
-  if (!lines.next_filled('#')) refuse(path, "no OFF header");
-  const std::string_view header = lines.token();
-  if (!is_supported_header(header)) {
-    lines.refuse("no OFF header that is read here: " + quoted(header));
-  }
-  if (lines.rest() == "BINARY") lines.refuse("binary OFF is not read here");
-  if (lines.rest().empty() && !lines.next_filled('#')) refuse(path, "no counts");
+  LineReader lines(path, without_byte_order_mark(text));
+  pass_header(path, lines);
   const long long vertex_count = lines.integer("the number of vertices");
   const long long face_count = lines.integer("the number of faces");
   if (!lines.rest().empty()) (void)lines.integer("the number of edges");

@@ -1,4 +1,5 @@
-// Polygon File Format (Stanford PLY): ASCII and binary of both byte orders.
+// Polygon File Format (Stanford PLY): ASCII and binary of both byte orders; polygons and
+// triangle strips.
 
 #include <algorithm>
 #include <array>
@@ -124,7 +125,8 @@ Header read_header(const std::string& path, LineReader& lines) {
   refuse(path, "ends inside the PLY header");
 }
 
-// Delivers the values of one element after the other.
+// Delivers the values of one element after the other.  An element begins on a line of its
+// own and may go on over the next lines; nothing else stands on its last one.
 class AsciiValues {
  public:
   AsciiValues(const LineReader& lines) : lines_(lines) {}
@@ -136,19 +138,35 @@ class AsciiValues {
            static_cast<std::size_t>(element.count) <= (lines_.bytes_left() + 1) / bytes;
   }
   [[nodiscard]] std::size_t values_left(Scalar) const {
-    return lines_.rest().size() / 2 + 1;
+    return (lines_.rest().size() + lines_.bytes_left()) / 2 + 1;
   }
   void begin(const std::string& name) {
     if (!lines_.next_filled()) lines_.refuse("the file ends before " + name);
   }
-  double real(Scalar, const std::string&) { return lines_.number("a value"); }
-  long long whole(Scalar, const std::string&) { return lines_.integer("a value"); }
+  double real(Scalar, const std::string& name) {
+    find_value(name);
+    return lines_.number("a value");
+  }
+  long long whole(Scalar, const std::string& name) {
+    find_value(name);
+    return lines_.integer("a value");
+  }
+  void skip(Scalar, const std::string& name) {
+    find_value(name);
+    lines_.skip_number("a value");
+  }
   void finish() { lines_.end_of_line(); }
   void finish_file() {
     if (lines_.next_filled()) lines_.refuse("more lines than the header announces");
   }
 
  private:
+  void find_value(const std::string& name) {
+    if (lines_.rest().empty() && !lines_.next_filled()) {
+      lines_.refuse("the file ends inside " + name);
+    }
+  }
+
   LineReader lines_;
 };
 
@@ -173,6 +191,7 @@ class BinaryValues {
     if (type == Scalar::F64) return take<double>(name);
     return static_cast<double>(whole(type, name));
   }
+  void skip(Scalar type, const std::string& name) { (void)real(type, name); }
   long long whole(Scalar type, const std::string& name) {
     switch (type) {
       case Scalar::I8:
@@ -210,9 +229,17 @@ class BinaryValues {
   bool swap_;
 };
 
-bool is_corner_list(const Element& element, const Property& property) {
-  return element.name == "face" && property.is_list &&
+bool is_list_of_vertices(const Property& property) {
+  return property.is_list &&
          (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+bool is_corner_list(const Element& element, const Property& property) {
+  return element.name == "face" && is_list_of_vertices(property);
+}
+
+bool is_strip(const Element& element, const Property& property) {
+  return element.name == "tristrips" && is_list_of_vertices(property);
 }
 
 template <class Values>
@@ -253,8 +280,12 @@ class BodyReader {
     for (const Property& property : element.properties) {
       if (is_corner_list(element, property)) {
         soup_.polygons.push_back(read_corners(property));
+      } else if (is_strip(element, property)) {
+        read_strip(property);
       } else if (property.is_list) {
-        for (long long n = list_size(property); n > 0; --n) skip(property.type);
+        for (long long n = list_size(property); n > 0; --n) {
+          values_.skip(property.type, name_);
+        }
       } else if (is_vertex && property.name.size() == 1 && property.name[0] >= 'x' &&
                  property.name[0] <= 'z') {
         const double x = values_.real(property.type, name_);
@@ -263,14 +294,12 @@ class BodyReader {
         }
         p[property.name[0] - 'x'] = x;
       } else {
-        skip(property.type);
+        values_.skip(property.type, name_);
       }
     }
     values_.finish();
     if (is_vertex) soup_.vertices.push_back(p);
   }
-
-  void skip(Scalar type) { (void)values_.real(type, name_); }
 
   long long list_size(const Property& property) {
     const long long size = values_.whole(property.size_type, name_);
@@ -281,16 +310,34 @@ class BodyReader {
     return size;
   }
 
+  int read_corner(const Property& property, long long least) {
+    const long long index = values_.whole(property.type, name_);
+    if (index < least || index > std::numeric_limits<int>::max()) {
+      refuse(path_, name_ + " names vertex " + std::to_string(index));
+    }
+    return static_cast<int>(index);
+  }
+
   std::vector<int> read_corners(const Property& property) {
     std::vector<int> polygon(static_cast<std::size_t>(list_size(property)));
-    for (int& corner : polygon) {
-      const long long index = values_.whole(property.type, name_);
-      if (index < 0 || index > std::numeric_limits<int>::max()) {
-        refuse(path_, name_ + " names vertex " + std::to_string(index));
-      }
-      corner = static_cast<int>(index);
-    }
+    for (int& corner : polygon) corner = read_corner(property, 0);
     return polygon;
+  }
+
+  // Each corner makes a triangle with the two before it, every other one turned over, so
+  // that all have the front of the first.  A -1 ends the strip; the next one begins.
+  void read_strip(const Property& property) {
+    constexpr int kNextStrip = -1;
+    std::vector<int> strip;
+    for (long long n = list_size(property); n > 0; --n) {
+      const int corner = read_corner(property, kNextStrip);
+      if (corner == kNextStrip) {
+        strip.clear();
+        continue;
+      }
+      strip.push_back(corner);
+      append_strip_triangle(soup_.polygons, strip);
+    }
   }
 
   const std::string& path_;
@@ -305,7 +352,8 @@ void check_elements(const std::string& path, const Header& header) {
   int coordinates = 0;
   for (const Element& element : header.elements) {
     for (const Property& property : element.properties) {
-      has_corners = has_corners || is_corner_list(element, property);
+      has_corners =
+          has_corners || is_corner_list(element, property) || is_strip(element, property);
       for (const char* const axis : {"x", "y", "z"}) {
         if (element.name == "vertex" && !property.is_list && property.name == axis) {
           ++coordinates;
@@ -320,6 +368,7 @@ void check_elements(const std::string& path, const Header& header) {
 }  // namespace
 
 PolygonSoup read_ply(const std::string& path, std::string_view bytes) {
+  bytes = without_byte_order_mark(bytes);
   LineReader lines(path, bytes);
   const Header header = read_header(path, lines);
   check_elements(path, header);

@@ -1,4 +1,7 @@
 // Stereolithography: triangles without shared vertices, ASCII or binary.
+//
+// Blanks and line ends may stand anywhere between the words of the ASCII form; the name
+// of a solid ends with its line.
 
 #include <algorithm>
 #include <bit>
@@ -76,7 +79,7 @@ class AsciiReader {
 
  private:
   void read_solid() {
-    expect("solid");
+    require(lines_.token(), "solid");
     const std::string name(lines_.rest());
     auto& groups = soup_.groups;
     auto group = std::find_if(groups.begin(), groups.end(),
@@ -85,11 +88,11 @@ class AsciiReader {
       groups.push_back({name, {}});
       group = groups.end() - 1;
     }
+    next_line();
     for (;;) {
-      next_line();
-      const std::string_view word = lines_.token();
-      if (same_word(word, "endsolid")) return;
-      if (!same_word(word, "facet")) lines_.refuse("no facet: " + quoted(word));
+      const std::string_view found = word();
+      if (same_word(found, "endsolid")) return;
+      if (!same_word(found, "facet")) lines_.refuse("no facet: " + quoted(found));
       read_facet();
       if (group != groups.end()) {
         group->faces.push_back(static_cast<int>(soup_.polygons.size()) - 1);
@@ -99,22 +102,29 @@ class AsciiReader {
 
   // Normals are not used: the corners' order tells the front.
   void read_facet() {
-    next_line();
-    expect("outer");
-    expect("loop");
+    std::string_view found = word();
+    if (same_word(found, "normal")) found = word();
+    while (is_number(found)) found = word();
+    require(found, "outer");
+    require(word(), "loop");
     for (int corner = 0; corner < 3; ++corner) {
-      next_line();
-      expect("vertex");
+      require(word(), "vertex");
       Point p;
-      for (double& x : p) x = lines_.number("a coordinate");
-      lines_.end_of_line();
+      for (double& x : p) {
+        if (lines_.rest().empty()) next_line();
+        x = lines_.number("a coordinate");
+      }
       soup_.vertices.push_back(p);
     }
-    next_line();
-    expect("endloop");
-    next_line();
-    expect("endfacet");
+    require(word(), "endloop");
+    require(word(), "endfacet");
     append_triangle(soup_);
+  }
+
+  // The next word, on whatever line.
+  std::string_view word() {
+    if (lines_.rest().empty()) next_line();
+    return lines_.token();
   }
 
   void next_line() {
@@ -124,10 +134,9 @@ class AsciiReader {
     }
   }
 
-  void expect(std::string_view word) {
-    const std::string_view token = lines_.token();
-    if (!same_word(token, word)) {
-      lines_.refuse(quoted(word) + " expected, found " + quoted(token));
+  void require(std::string_view found, std::string_view expected) {
+    if (!same_word(found, expected)) {
+      lines_.refuse(quoted(expected) + " expected, found " + quoted(found));
     }
   }
 
@@ -136,21 +145,61 @@ class AsciiReader {
   PolygonSoup soup_;
 };
 
+// Whether a file is text although its size would do for a binary one: its first word is
+// "solid", and the next line that is not empty begins with the word "facet" or
+// "endsolid".
+bool begins_as_text(std::string_view text) {
+  const std::string no_path;
+  LineReader lines(no_path, text);
+  if (!lines.next_filled() || !same_word(lines.token(), "solid")) return false;
+  if (!lines.next_filled()) return false;
+  const std::string_view word = lines.token();
+  return same_word(word, "facet") || same_word(word, "endsolid");
+}
+
+// Whether a damaged file was a text: hardly any byte is one that only binary files have
+// (bytes above 127 may be of a name).  In a binary file at least 2 of 50 bytes are: the
+// two spare ones of each triangle, which are 0.
+bool is_mostly_text(std::string_view bytes) {
+  const auto strange = std::count_if(bytes.begin(), bytes.end(), [](unsigned char c) {
+    return c < ' ' && (c < '\t' || c > '\r');
+  });
+  return static_cast<std::size_t>(strange) < (bytes.size() + 63) / 64;
+}
+
+void report_spare_bytes(PolygonSoup& soup, std::size_t needed, std::size_t there) {
+  if (there == needed) return;
+  soup.defects.push_back({"spare bytes",
+                          std::to_string(there - needed) +
+                              " bytes follow the last of the triangles that the file "
+                              "announces: not read",
+                          {},
+                          {}});
+}
+
 }  // namespace
 
+// A binary file has 80 bytes of comment, which may begin with "solid" too, a count, and
+// so many triangles; what follows is spare.  In a text, the bytes of the count are
+// characters and announce more triangles than any file holds.
 PolygonSoup read_stl(const std::string& path, std::string_view bytes) {
-  // Binary files may begin with "solid" too: the size decides, then the word.
-  if (bytes.size() >= kHeaderBytes) {
-    const std::uint32_t count = little_endian(bytes.data() + 80);
-    const std::size_t needed = kHeaderBytes + kTriangleBytes * std::size_t{count};
-    if (bytes.size() == needed) return read_binary(path, bytes, count);
-    if (!same_word(bytes.substr(0, 5), "solid")) {
-      refuse(path, "announces " + std::to_string(count) + " triangles, that is " +
-                       std::to_string(needed) + " bytes, but has " +
-                       std::to_string(bytes.size()) + " bytes");
-    }
+  const std::string_view text = without_byte_order_mark(bytes);
+  if (bytes.size() < kHeaderBytes) return AsciiReader(path, text).read();
+  const std::uint32_t count = little_endian(bytes.data() + 80);
+  const std::size_t needed = kHeaderBytes + kTriangleBytes * std::size_t{count};
+  const bool holds_all = count > 0 && bytes.size() >= needed;
+  if (bytes.size() == needed ||
+      (holds_all && !(begins_as_text(text) && is_mostly_text(bytes)))) {
+    PolygonSoup soup = read_binary(path, bytes, count);
+    report_spare_bytes(soup, needed, bytes.size());
+    return soup;
   }
-  return AsciiReader(path, bytes).read();
+  if (!begins_as_text(text) && !is_mostly_text(bytes)) {
+    refuse(path, "announces " + std::to_string(count) + " triangles, that is " +
+                     std::to_string(needed) + " bytes, but has " +
+                     std::to_string(bytes.size()) + " bytes");
+  }
+  return AsciiReader(path, text).read();
 }
 
 }  // namespace sightline::internal

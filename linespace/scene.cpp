@@ -95,6 +95,7 @@ std::string format_length(double x) {
 
 void SceneBuilder::run() {
   check_usable();
+  scene.defects_ = scene.soup_.defects;
   weld_vertices();
   make_faces();
   number_points();

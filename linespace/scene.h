@@ -31,6 +31,14 @@ class InvalidInput : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// What a careful modeller would not have meant; the scene is used as it is.
+struct Defect {
+  std::string kind;  ///< "zero area", "repeated vertex", "non-planar polygon", ...
+  std::string message;
+  std::vector<int> faces;     ///< polygon numbers in the file, from 0
+  std::vector<int> vertices;  ///< vertex numbers in the file, from 0
+};
+
 /// Polygons as a file gives them: indices into vertices, faces in file order.
 struct PolygonSoup {
   /// Groups may overlap (OBJ allows it): a face belongs to the object of the first group
@@ -43,6 +51,7 @@ struct PolygonSoup {
   std::vector<std::vector<int>> polygons;  ///< indices into `vertices`, from 0
   std::vector<Group> groups;               ///< empty when the file names none
   std::string source;                      ///< file name, for messages
+  std::vector<Defect> defects;             ///< of the file itself, found while reading
 };
 
 /// Seen from outside: Convex is a ridge, Reflex a valley, Flat neither, Boundary has one
@@ -96,13 +105,6 @@ struct Object {
   /// Closed, bounded on the inside (positive volume), all its edges convex or flat, and
   /// every point on or behind every face's plane.
   bool convex;
-};
-
-struct Defect {
-  std::string kind;  ///< "zero area", "repeated vertex", "non-planar polygon", ...
-  std::string message;
-  std::vector<int> faces;     ///< polygon numbers in the file, from 0
-  std::vector<int> vertices;  ///< vertex numbers in the file, from 0
 };
 
 struct SceneOptions {

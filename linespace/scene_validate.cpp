@@ -36,6 +36,7 @@ void SceneBuilder::check_usable() const {
     refuse("more than 2147483647 vertices or faces");
   }
   if (soup.polygons.empty()) refuse("no faces");
+  if (soup.vertices.empty()) refuse("no vertices");
   for (std::size_t v = 0; v < soup.vertices.size(); ++v) {
     for (const double x : soup.vertices[v]) {
       const double size = std::abs(x);

@@ -13,6 +13,7 @@
 #include "viewers/command_line.h"
 #include "viewers/drawing.h"
 #include "viewers/eee_surface.h"
+#include "viewers/json_text.h"
 #include "viewers/outputs.h"
 #include "viewers/page.h"
 #include "viewers/palette.h"
@@ -477,7 +478,7 @@ ExitStatus run(const AnalyseOptions& options) {
   files.insert(files.begin(), "report.json");
   if (options.scene.empty()) files.emplace_back(kBuiltinSceneName);
   report["files"] = files;
-  write_whole(folder / "report.json", report.dump(1) + "\n");
+  write_whole(folder / "report.json", json_text(report, 1) + "\n");
   write_whole(folder / "index.html", report_page(report, pictures));
   outputs.write_answer(report);
   if (options.may_print()) print_summary(report, folder);

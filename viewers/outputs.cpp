@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "viewers/json_text.h"
+
 namespace sightline::viewers {
 
 Outputs::Outputs(const CommonOptions& options) {
@@ -40,7 +42,7 @@ void Outputs::protect(const std::string& file) {
 
 void Outputs::write_answer(const Json& answer) {
   if (json_ == nullptr) return;
-  json_->stream() << answer.dump(1) << '\n';
+  json_->stream() << json_text(answer, 1) << '\n';
   json_->commit();
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "viewers/json_text.h"
 #include "viewers/palette.h"
 
 namespace sightline::viewers {
@@ -279,7 +280,7 @@ std::string files_section(const Json& report) {
 
 std::string html_escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
+  for (const char c : escaped_bytes(text)) {
     switch (c) {
       case '&':
         out += "&amp;";

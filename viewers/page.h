@@ -24,7 +24,7 @@ struct PagePicture {
 /// RFC 4648.
 [[nodiscard]] std::string base64(const std::string& bytes);
 
-/// With & < > " replaced, for text and attribute values.
+/// With & < > " replaced, for text and attribute values; valid UTF-8 (escaped_bytes).
 [[nodiscard]] std::string html_escaped(const std::string& text);
 
 }  // namespace sightline::viewers

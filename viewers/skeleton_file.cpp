@@ -7,6 +7,7 @@
 #include "viewers/drawing.h"
 #include "viewers/eee_surface.h"
 #include "viewers/far_ends.h"
+#include "viewers/json_text.h"
 
 namespace sightline::viewers {
 namespace {
@@ -130,7 +131,7 @@ void read_arc(const Json& j, Arc& arc) {
 
 StoredSkeleton skeleton_from(const Json& j) {
   StoredSkeleton stored;
-  stored.scene_file = j.at("scene").at("file").get<std::string>();
+  stored.scene_file = unescaped_bytes(j.at("scene").at("file").get<std::string>());
   Skeleton& skeleton = stored.skeleton;
   skeleton.complete = j.at("complete").get<bool>();
   if (j.contains("options") && j["options"].value("events", "solid") == "polygon") {
@@ -179,7 +180,7 @@ StoredSkeleton skeleton_from(const Json& j) {
 
 void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
                          const Skeleton& skeleton, const SkeletonLines* lines) {
-  std::string text = head.dump(1);
+  std::string text = json_text(head, 1);
   text.erase(text.rfind('}'));  // leave the object open
   text.erase(text.find_last_not_of("\n ") + 1);
   stream << text << ",\n \"list\": {\n  \"nodes\": [";
@@ -188,12 +189,12 @@ void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& sc
     if (lines != nullptr) {
       add_far_ends(node, scene, far_ends(scene, *lines, skeleton, skeleton.nodes[i]));
     }
-    stream << (i == 0 ? "\n   " : ",\n   ") << node.dump();
+    stream << (i == 0 ? "\n   " : ",\n   ") << json_text(node);
   }
   stream << "\n  ],\n  \"arcs\": [";
   const char* separator = "\n   ";
   const auto add_arc = [&](const Json& arc) {
-    stream << separator << arc.dump();
+    stream << separator << json_text(arc);
     separator = ",\n   ";
   };
   for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {

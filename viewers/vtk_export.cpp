@@ -28,6 +28,7 @@
 #include <map>
 
 #include "viewers/eee_surface.h"
+#include "viewers/json_text.h"
 #include "viewers/output_file.h"
 #include "viewers/palette.h"
 
@@ -151,7 +152,7 @@ vtkSmartPointer<vtkPolyData> scene_cells(const Scene& scene) {
   vtkSmartPointer<vtkPolyData> data = cells.poly_data();
   vtkNew<vtkStringArray> names;
   names->SetName("object_names");
-  for (const Object& object : scene.objects()) names->InsertNextValue(object.name);
+  for (const Object& object : scene.objects()) names->InsertNextValue(escaped_bytes(object.name));
   data->GetFieldData()->AddArray(names);
   return data;
 }

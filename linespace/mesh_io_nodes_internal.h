@@ -1,0 +1,39 @@
+// Groups from the names of a scene file's nodes.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "linespace/scene.h"
+
+namespace sightline::internal {
+
+/// Gathers the nodes of a tree, children before their parents, and makes groups of them.
+/// A node's group has the faces of all nodes below it.
+class NodeGroups {
+ public:
+  /// A node of that name whose faces, and those of all nodes below it, are first to
+  /// last - 1.  Nodes without name or faces are left out.
+  void add(const std::string& name, int first, int last, bool is_root);
+
+  /// The groups.  A face's object is the first group that lists it: of the nodes above it
+  /// the nearest whose name is its own; names that several nodes bear ("IfcMappedItem")
+  /// and the root's come last.  Throws InvalidInput when nodes are nested so deep that
+  /// the groups list more than kMostFaces faces and more than kMostListings times each
+  /// face.
+  [[nodiscard]] std::vector<PolygonSoup::Group> groups();
+
+ private:
+  static constexpr std::size_t kMostFaces = std::size_t{1} << 25;
+  static constexpr std::size_t kMostListings = 64;
+
+  struct Node {
+    std::string name;
+    int first, last;
+    bool is_root;
+  };
+  std::vector<Node> nodes_;
+};
+
+}  // namespace sightline::internal
