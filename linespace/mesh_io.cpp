@@ -207,6 +207,17 @@ constexpr Format kFormats[] = {
 #endif
     {"obj", read_obj},  {"off", read_off},   {"ply", read_ply}, {"stl", read_stl}};
 
+void check_extension(const std::string& path, const std::string& extension) {
+  const auto known = readable_extensions();
+  if (std::find(known.begin(), known.end(), extension) != known.end()) return;
+  std::string list;
+  for (const std::string& name : known) list += " ." + name;
+  refuse(path, (extension.empty() ? std::string("no extension tells its format")
+                                  : "no mesh format is known by the extension " +
+                                        internal::quoted(extension)) +
+                   "; read are" + list);
+}
+
 }  // namespace
 }  // namespace internal
 
@@ -220,6 +231,7 @@ PolygonSoup read_mesh(const std::string& path) {
     const std::string bytes = internal::load_file(path);
     soup = format->read(path, bytes);
   } else {
+    internal::check_extension(path, extension);
     soup = internal::read_with_assimp(path, extension);
   }
   soup.source = path;

@@ -1,20 +1,24 @@
-// glTF, IFC, AC3D and the other scene formats, through assimp.
+// IFC, AC3D and other scene formats through assimp, in a process of its own.
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
-#include <cstdint>
+#include <set>
 #include <string_view>
 
+#include "linespace/mesh_io_child_internal.h"
 #include "linespace/mesh_io_internal.h"
 #include "linespace/mesh_io_nodes_internal.h"
 
 #ifdef SIGHTLINE_HAS_ASSIMP
-#include <assimp/postprocess.h>
+#include <assimp/config.h>
 #include <assimp/scene.h>
 
 #include <Eigen/Geometry>
 #include <assimp/DefaultLogger.hpp>
 #include <assimp/Importer.hpp>
+#include <assimp/LogStream.hpp>
 #endif
 
 namespace sightline::internal {
@@ -102,40 +106,70 @@ class SceneWalker {
   NodeGroups groups_;
 };
 
-}  // namespace
+// Those formats of assimp whose readers neither crashed nor hung on damaged copies, and
+// IFC.
+constexpr std::array<std::string_view, 8> kExtensions{"3ds", "ac",  "dae", "dxf",
+                                                      "fbx", "ifc", "lwo", "x"};
 
-PolygonSoup read_with_assimp(const std::string& path, const std::string& extension) {
-  const auto known = assimp_extensions();
-  if (!std::binary_search(known.begin(), known.end(), extension)) {
-    refuse(path, "no mesh format is known by the extension " + quoted(extension));
+// Gathers what assimp says of a file; of messages that differ in numbers only, the first.
+class Complaints : public Assimp::LogStream {
+ public:
+  void write(const char* message) override {
+    constexpr std::size_t kMost = 20;
+    std::string text = one_line(message);  // "Warn,  T0: IFC: ..."
+    if (const std::size_t at = text.find(": "); at != std::string::npos) {
+      text.erase(0, at + 2);
+    }
+    std::string kind = text;
+    std::erase_if(kind, [](unsigned char c) { return std::isdigit(c) != 0; });
+    if (defects_.size() < kMost && kinds_.insert(kind).second) {
+      defects_.push_back({"reader's warning", text, {}, {}});
+    }
   }
-  if (extension == "ifc") check_step(path, load_file(path));
+  [[nodiscard]] const std::vector<Defect>& defects() const { return defects_; }
+
+ private:
+  std::set<std::string> kinds_;
+  std::vector<Defect> defects_;
+};
+
+// To be called in a process of its own.
+PolygonSoup read_scene(const std::string& path, bool is_ifc) {
+  Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0, nullptr);
+  auto* const complaints = new Complaints;  // the logger owns it
+  Assimp::DefaultLogger::get()->attachStream(complaints,
+                                             Assimp::Logger::Warn | Assimp::Logger::Err);
   try {
     Assimp::Importer importer;
+    // Otherwise a file without faces gets pyramids where its bones might be.
+    importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
     // Polygons stay whole where the format has them: Scene cuts them exactly.
     const aiScene* const scene = importer.ReadFile(path, 0);
     if (scene == nullptr) refuse(path, one_line(importer.GetErrorString()));
-    return SceneWalker(path, *scene).walk(extension == "ifc" || extension == "ifczip");
+    PolygonSoup soup = SceneWalker(path, *scene).walk(is_ifc);
+    soup.defects = complaints->defects();
+    return soup;
   } catch (const InvalidInput&) {
+    throw;
+  } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& error) {
     refuse(path, "cannot be read: " + one_line(error.what()));
   }
 }
 
+}  // namespace
+
+PolygonSoup read_with_assimp(const std::string& path, const std::string& extension) {
+  const std::string bytes = load_file(path);
+  const bool is_ifc = extension == "ifc";
+  if (is_ifc) check_step(path, bytes);
+  return read_in_child(
+      path, bytes.size(), [] {}, [&] { return read_scene(path, is_ifc); });
+}
+
 std::vector<std::string> assimp_extensions() {
-  aiString list;
-  Assimp::Importer().GetExtensionList(list);  // "*.3ds;*.ac;..."
-  std::vector<std::string> extensions;
-  std::string_view rest = list.C_Str();
-  while (!rest.empty()) {
-    const std::size_t end = rest.find(';');
-    const std::string_view item = rest.substr(0, end);
-    if (item.starts_with("*.")) extensions.emplace_back(item.substr(2));
-    rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
-  }
-  std::sort(extensions.begin(), extensions.end());
-  return extensions;
+  return {kExtensions.begin(), kExtensions.end()};
 }
 
 #else

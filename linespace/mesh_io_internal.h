@@ -93,10 +93,14 @@ void append_strip_triangle(std::vector<std::vector<int>>& polygons,
 [[nodiscard]] PolygonSoup read_gltf(const std::string& path, std::string_view bytes);
 [[nodiscard]] PolygonSoup read_stl(const std::string& path, std::string_view bytes);
 
-/// Refuses an IFC file that ends early, is no text, or names records that it lacks.
+/// Whether IFC 2x3 has an entity or a type of that name, in capital letters.
+[[nodiscard]] bool is_ifc_name(std::string_view name);
+
+/// Refuses an IFC file that ends early, is no text, names records that it lacks, or has
+/// records of a name that IFC 2x3 does not have: assimp would leave those out.
 void check_step(const std::string& path, std::string_view text);
 
-/// Through assimp; throws InvalidInput when the build has none.
+/// Through assimp, for an extension of assimp_extensions.
 [[nodiscard]] PolygonSoup read_with_assimp(const std::string& path,
                                            const std::string& extension);
 [[nodiscard]] std::vector<std::string> assimp_extensions();

@@ -1,5 +1,6 @@
 // A look at an IFC file's STEP syntax (ISO 10303-21) before assimp reads it: that reader
-// follows references to records that are not there, and does not survive it.
+// follows references to records that are not there, and does not survive it; and it
+// leaves records out whose name it does not know.
 
 #include <algorithm>
 
@@ -42,6 +43,9 @@ class StepChecker {
       defined_.push_back(reference());
       skip_blanks();
       if (at_ >= text_.size() || text_[at_] != '=') refuse_here("'=' expected");
+      advance();
+      skip_blanks();
+      check_name();
     }
     for (; at_ < text_.size(); advance()) {
       const char c = text_[at_];
@@ -63,6 +67,16 @@ class StepChecker {
       }
     }
     refuse_here("ends inside a statement");
+  }
+
+  // The name of a record; a bracket instead begins a record of several names.
+  void check_name() {
+    std::size_t end = at_;
+    while (end < text_.size() && text_[end] != '(' && !is_blank(text_[end])) ++end;
+    const std::string_view name = text_.substr(at_, end - at_);
+    if (!name.empty() && !is_ifc_name(name)) {
+      refuse_here("no entity of IFC 2x3: " + quoted(name));
+    }
   }
 
   long long reference() {

@@ -11,10 +11,10 @@
 namespace sightline::viewers {
 
 void add_scene_argument(CLI::App& app, CommonOptions& options, bool required) {
-  CLI::Option* scene =
-      app.add_option("SCENE", options.scene,
-                     "mesh file, by extension: .obj .ply .stl .off .glb .gltf; "
-                     ".ifc .ac and others where assimp reads them");
+  CLI::Option* scene = app.add_option(
+      "SCENE", options.scene,
+      "mesh file, by extension: .obj .ply .stl .off .glb .gltf; where assimp reads "
+      "them .ifc .3ds .ac .dae .dxf .fbx .lwo .x");
   scene->required(required);
 }
 
