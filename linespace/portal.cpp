@@ -431,35 +431,70 @@ ExactLine line_through(const HomogeneousPoint& p, const HomogeneousPoint& q) {
   return line_from(difference(q, p), cross(p.x, q.x));
 }
 
-std::optional<ExactLine> line_through(const HomogeneousPoint& p, const LineThrough& l,
-                                      const LineThrough& m) {
-  const auto normal = [&p](const LineThrough& line) {
-    return cross(difference(homogeneous(line.from), p),
-                 difference(homogeneous(line.to), p));
-  };
-  RingVector d = cross(normal(l), normal(m));
+namespace {
+
+/// Of the plane of a point and a line; zero when the point is on the line.
+RingVector normal_of(const HomogeneousPoint& p, const LineThrough& line) {
+  return cross(difference(homogeneous(line.from), p),
+               difference(homogeneous(line.to), p));
+}
+
+/// The line through p in two planes with these normals.
+std::optional<ExactLine> line_in_planes(const HomogeneousPoint& p, const RingVector& n,
+                                        const RingVector& o) {
+  RingVector d = cross(n, o);
   if (all_zero(d)) return std::nullopt;
   const RingVector moment = cross(p.x, d);
   for (Ring& x : d) x = x * p.w;
   return line_from(d, moment);
 }
 
+}  // namespace
+
+std::optional<ExactLine> line_through(const HomogeneousPoint& p, const LineThrough& l,
+                                      const LineThrough& m) {
+  return line_in_planes(p, normal_of(p, l), normal_of(p, m));
+}
+
+std::optional<ExactLine> line_in_plane(const HomogeneousPoint& p, const LineThrough& l,
+                                       const Portal& polygon) {
+  if (side_of_plane(polygon, p) != Sign::Zero) return std::nullopt;
+  return line_in_planes(p, normal_of(p, l), polygon.normal);
+}
+
+bool lies_on(const HomogeneousPoint& p, const LineThrough& edge) {
+  return all_zero(normal_of(p, edge));
+}
+
+bool in_plane_of(const HomogeneousPoint& p, const HomogeneousPoint& point,
+                 const LineThrough& edge) {
+  return is_zero(dot(normal_of(point, edge), difference(p, point)));
+}
+
 Sign side_of_plane(const Portal& polygon, const HomogeneousPoint& p) {
   return sign_of(Ring(dot(polygon.normal, p.x) - polygon.offset * p.w));
 }
 
-std::optional<HomogeneousPoint> crossing(const LineThrough& edge, const Portal& polygon) {
-  const PlaneThrough plane = polygon.plane();
+std::optional<HomogeneousPoint> crossing(const LineThrough& edge,
+                                         const PlaneThrough& plane) {
   const Sign s = orient3d(plane.a, plane.b, plane.c, edge.from);
   if (s * orient3d(plane.a, plane.b, plane.c, edge.to) != Sign::Negative) {
     return std::nullopt;
   }
-  const Ring from = dot(polygon.normal, ring_point(edge.from)) - polygon.offset;
+  return line_crossing(edge, plane);
+}
+
+std::optional<HomogeneousPoint> line_crossing(const LineThrough& edge,
+                                              const PlaneThrough& plane) {
+  const RingVector normal =
+      cross(ring_difference(plane.b, plane.a), ring_difference(plane.c, plane.a));
   const RingVector along = ring_difference(edge.to, edge.from);
-  const Ring slope = dot(polygon.normal, along);
-  // edge.from - along * from / slope
+  const Ring slope = dot(normal, along);
+  if (is_zero(slope)) return std::nullopt;
+  // edge.from - along * height / slope
+  const Ring height = dot(normal, ring_difference(edge.from, plane.a));
   HomogeneousPoint p{{}, slope};
-  for (int i = 0; i < 3; ++i) p.x[i] = Ring(edge.from[i]) * slope - along[i] * from;
+  for (int i = 0; i < 3; ++i) p.x[i] = Ring(edge.from[i]) * slope - along[i] * height;
   if (sign_of(p.w) == Sign::Negative) {
     p.w = -p.w;
     for (Ring& x : p.x) x = -x;
@@ -521,7 +556,7 @@ std::optional<Range> cut(const Portal& portal, const Portal& by,
   }
   if (!s.positive || !s.negative) return std::nullopt;
   for (const LineThrough& e : portal.edges) {
-    if (auto p = crossing(e, by)) points.push_back(*std::move(p));
+    if (auto p = crossing(e, by.plane())) points.push_back(*std::move(p));
   }
   Range r{points.front(), points.front()};
   for (const HomogeneousPoint& p : points) {
@@ -532,7 +567,7 @@ std::optional<Range> cut(const Portal& portal, const Portal& by,
 }
 
 bool pierces(const Portal& slit, const Portal& polygon) {
-  const auto p = crossing(slit.edges[0], polygon);
+  const auto p = crossing(slit.edges[0], polygon.plane());
   if (!p) return false;
   Sign common = Sign::Zero;
   for (const LineThrough& e : polygon.edges) {

@@ -83,13 +83,26 @@ struct Meeting {
 [[nodiscard]] std::optional<ExactLine> line_through(const HomogeneousPoint& p,
                                                     const LineThrough& l,
                                                     const LineThrough& m);
+/// The line through p in a polygon's plane that meets l; nullopt when p is not in the
+/// plane or does not fix one line.
+[[nodiscard]] std::optional<ExactLine> line_in_plane(const HomogeneousPoint& p,
+                                                     const LineThrough& l,
+                                                     const Portal& polygon);
+/// Whether p is on the line of an edge.
+[[nodiscard]] bool lies_on(const HomogeneousPoint& p, const LineThrough& edge);
+/// Whether p is in the plane of a point and an edge.
+[[nodiscard]] bool in_plane_of(const HomogeneousPoint& p, const HomogeneousPoint& point,
+                               const LineThrough& edge);
 
 /// On which side of a polygon's plane a point lies.
 [[nodiscard]] Sign side_of_plane(const Portal& polygon, const HomogeneousPoint& p);
-/// Where an edge crosses a polygon's plane; nullopt unless its ends lie strictly on
-/// different sides.
+/// Where an edge crosses a plane; nullopt unless its ends lie strictly on different
+/// sides.
 [[nodiscard]] std::optional<HomogeneousPoint> crossing(const LineThrough& edge,
-                                                       const Portal& polygon);
+                                                       const PlaneThrough& plane);
+/// Where an edge's line crosses a plane; nullopt when it is parallel to it or in it.
+[[nodiscard]] std::optional<HomogeneousPoint> line_crossing(const LineThrough& edge,
+                                                            const PlaneThrough& plane);
 /// The common point of two closed segments that are not parallel.
 [[nodiscard]] std::optional<HomogeneousPoint> crossing(const LineThrough& e,
                                                        const LineThrough& f);

@@ -3,14 +3,16 @@
 // What makes pushing cheap (docs/portals.md proves it): a new extremal line lies, before
 // the push, on a family of stabbing lines with some contacts, and that family's closure
 // holds an old extremal line, which has these contacts and more.  So a new line is fixed
-// by generators of the new portal together with contacts of ONE old extremal line.
+// by generators of the new portal together with contacts of ONE old extremal line; which
+// of these contacts, portal_families_internal.h tells.
 
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <numeric>
 #include <utility>
 
-#include "linespace/portals_internal.h"
+#include "linespace/portal_families_internal.h"
 
 namespace sightline {
 namespace internal {
@@ -28,53 +30,47 @@ void make_set(std::vector<T>& v) {
 
 class Search {
  public:
-  explicit Search(State& state)
+  Search(State& state, const Deadline& deadline)
       : s_(state),
+        deadline_(deadline),
         latest_(static_cast<int>(state.portals.size()) - 1),
         portal_(state.portals.back()) {}
 
-  void run();
+  /// Replaces the state's extremal lines.  Throws Stopped.
+  void run(std::vector<HeldLine> old);
 
  private:
   [[nodiscard]] const LineThrough& edge(int e) const { return s_.edges[e]; }
-  int point_id(HomogeneousPoint p);
 
   void set_contacts(HeldLine& held);
   [[nodiscard]] bool crossing_edges(const PortalGenerator& a,
                                     const PortalGenerator& b) const;
 
-  void consider(const ExactLine& line, std::initializer_list<int> touched_edges);
+  void consider(const ExactLine& line);
   void consider(int p, int q);
   void consider(int p, int e, int f);
+  void consider(std::array<int, 3> edges, int new_edge);
   void keep(HeldLine held);
 
-  void add_all_generators();
-  void find_new_points();
-  void through_new_points(const HeldLine& old);
-  void on_new_edges(const HeldLine& old);
-  void in_new_plane(const HeldLine& old);
-  void in_old_planes(const HeldLine& old);
-  [[nodiscard]] std::vector<int> points_in_plane(const HeldLine& old, int plane);
+  [[nodiscard]] bool all_needed() const;
+  void find_new_points(const std::vector<HeldLine>& old);
+  void try_families(const LineFamilies& families);
+  void through_new_points(const LineFamilies& families);
+  void on_new_edges(const LineFamilies& families);
+  void in_new_plane(const LineFamilies& families);
   [[nodiscard]] bool plane_can_hold(int plane) const;
 
   State& s_;
+  const Deadline& deadline_;
   int latest_;
   const Portal& portal_;
-  std::vector<HeldLine> old_;
+  bool new_plane_ = false;  // lines in the new portal's plane can meet all portals
   std::vector<int> new_edges_, new_points_;
   std::set<std::array<int, 2>> point_pairs_;
   std::set<std::array<int, 3>> point_edges_;
   std::set<std::array<int, 4>> quadruples_;
-  std::set<std::array<int, 2>> plane_pairs_;
   std::map<ContactKey, std::vector<std::size_t>> by_contacts_;
 };
-
-int Search::point_id(HomogeneousPoint p) {
-  const auto [at, added] =
-      s_.point_ids.try_emplace(p, static_cast<int>(s_.points.size()));
-  if (added) s_.points.push_back(std::move(p));
-  return at->second;
-}
 
 /// Two touched edges that meet in the touched point and are not of one line.
 bool Search::crossing_edges(const PortalGenerator& a, const PortalGenerator& b) const {
@@ -105,31 +101,23 @@ void Search::set_contacts(HeldLine& held) {
       held.contacts.push_back({t.at, {}});
     }
     held.contacts.back().generators.push_back(t.generator);
-    const auto [kind, portal, index] = t.generator;
-    const int n = static_cast<int>(s_.portals[portal].edges.size());
-    const int first = s_.first_edges[portal];
-    if (kind == Kind::Edge) {
-      held.edges.push_back(first + index);
-    } else if (n > 0) {
-      held.edges.push_back(first + index % n);  // a slit has one edge and two corners
-      held.edges.push_back(first + (index + n - 1) % n);
-    }
+    for (const int e : s_.edges_at(t.generator)) held.edges.push_back(e);
   }
   for (Contact& c : held.contacts) {
     std::ranges::sort(c.generators);
     const PortalGenerator& g = c.generators.front();
     if (g.kind == Kind::Vertex) {
-      c.fixed = true;
-      held.points.push_back(point_id(homogeneous(s_.portals[g.portal].corners[g.index])));
-      continue;
+      c.point = s_.point_id(homogeneous(s_.portals[g.portal].corners[g.index]));
+    } else {
+      for (const PortalGenerator& h : c.generators) {
+        if (!crossing_edges(g, h)) continue;
+        c.point = s_.point_id(*crossing(s_.portals[g.portal].edges[g.index],
+                                        s_.portals[h.portal].edges[h.index]));
+        break;
+      }
     }
-    for (const PortalGenerator& h : c.generators) {
-      if (!crossing_edges(g, h)) continue;
-      c.fixed = true;
-      held.points.push_back(point_id(*crossing(s_.portals[g.portal].edges[g.index],
-                                               s_.portals[h.portal].edges[h.index])));
-      break;
-    }
+    c.fixed = c.point >= 0;
+    if (c.fixed) held.points.push_back(c.point);
   }
   make_set(held.edges);
   make_set(held.points);
@@ -141,15 +129,15 @@ void Search::keep(HeldLine held) {
   for (const std::size_t i : same) {
     if (same_line(s_.held[i].line, held.line)) return;
   }
+  if (!is_extremal(s_, held)) return;
   same.push_back(s_.held.size());
   s_.held.push_back(std::move(held));
 }
 
-void Search::consider(const ExactLine& line, std::initializer_list<int> touched_edges) {
+/// Keeps a line if it stabs and is extremal.
+void Search::consider(const ExactLine& line) {
+  deadline_.check();
   ++s_.statistics.candidates;
-  for (const int e : touched_edges) {
-    if (line.meets(edge(e)) == SegmentContact::None) return;
-  }
   for (int i = latest_; i >= 0; --i) {
     if (!meets(line, s_.portals[i])) return;
   }
@@ -162,66 +150,72 @@ void Search::consider(const ExactLine& line, std::initializer_list<int> touched_
 
 void Search::consider(int p, int q) {
   if (p == q || !point_pairs_.insert({std::min(p, q), std::max(p, q)}).second) return;
-  consider(line_through(s_.points[p], s_.points[q]), {});
+  consider(line_through(s_.points[p], s_.points[q]));
 }
 
 void Search::consider(int p, int e, int f) {
   if (!point_edges_.insert({p, std::min(e, f), std::max(e, f)}).second) return;
-  if (const auto line = line_through(s_.points[p], edge(e), edge(f))) {
-    consider(*line, {e, f});
-  }
+  if (const auto line = line_through(s_.points[p], edge(e), edge(f))) consider(*line);
+}
+
+void Search::consider(std::array<int, 3> edges, int new_edge) {
+  std::ranges::sort(edges);
+  const auto [e, f, g] = edges;
+  if (!quadruples_.insert({e, f, g, new_edge}).second) return;
+  deadline_.check();
+  const LineTransversals found = transversals(edge(e), edge(f), edge(g), edge(new_edge));
+  for (const ExactLine& line : found.lines) consider(line);
 }
 
 /// The new portal's corners, and where its edges cross edges that are touched.
-void Search::find_new_points() {
+void Search::find_new_points(const std::vector<HeldLine>& old) {
   for (const Eigen::Vector3d& v : portal_.corners) {
-    new_points_.push_back(point_id(homogeneous(v)));
+    new_points_.push_back(s_.point_id(homogeneous(v)));
   }
   std::vector<int> touched;
-  for (const HeldLine& old : old_) {
-    touched.insert(touched.end(), old.edges.begin(), old.edges.end());
+  for (const HeldLine& line : old) {
+    touched.insert(touched.end(), line.edges.begin(), line.edges.end());
   }
   make_set(touched);
+  if (all_needed()) {
+    touched.resize(static_cast<std::size_t>(s_.first_edges[latest_]));
+    std::iota(touched.begin(), touched.end(), 0);
+  }
   for (const int e : touched) {
     for (const LineThrough& f : portal_.edges) {
-      if (auto p = crossing(edge(e), f)) new_points_.push_back(point_id(*std::move(p)));
+      if (auto p = crossing(edge(e), f))
+        new_points_.push_back(s_.point_id(*std::move(p)));
     }
   }
   make_set(new_points_);
 }
 
-void Search::through_new_points(const HeldLine& old) {
+void Search::through_new_points(const LineFamilies& families) {
   for (const int p : new_points_) {
-    for (const int q : old.points) consider(p, q);
-    for (std::size_t i = 0; i < old.edges.size(); ++i) {
-      for (std::size_t j = i + 1; j < old.edges.size(); ++j) {
-        const int e = old.edges[i], f = old.edges[j];
-        if (s_.edge_portals[e] != s_.edge_portals[f]) consider(p, e, f);
+    for (const int q : families.stars) consider(p, q);
+    for (const auto& [e, f] : families.pairs) consider(p, e, f);
+    for (const Pencil& pencil : families.pencils) {
+      if (in_plane_of(s_.points[p], s_.points[pencil.point], edge(pencil.edge))) {
+        consider(p, pencil.point);
       }
     }
   }
 }
 
-void Search::on_new_edges(const HeldLine& old) {
-  const std::vector<int>& e = old.edges;
-  const auto same_portal = [&](int a, int b) {
-    return s_.edge_portals[a] == s_.edge_portals[b];
+void Search::on_new_edges(const LineFamilies& families) {
+  const auto apart = [&](int a, int b) {
+    return s_.edge_portals[a] != s_.edge_portals[b];
   };
+  const std::vector<int>& any = families.any_three;
   for (const int n : new_edges_) {
-    for (const int p : old.points) {
-      for (const int a : e) consider(p, a, n);
-    }
-    for (std::size_t i = 0; i < e.size(); ++i) {
-      for (std::size_t j = i + 1; j < e.size(); ++j) {
-        if (same_portal(e[i], e[j])) continue;
-        for (std::size_t k = j + 1; k < e.size(); ++k) {
-          if (same_portal(e[i], e[k]) || same_portal(e[j], e[k])) continue;
-          if (!quadruples_.insert({e[i], e[j], e[k], n}).second) continue;
-          const LineTransversals found =
-              transversals(edge(e[i]), edge(e[j]), edge(e[k]), edge(n));
-          for (const ExactLine& line : found.lines) {
-            consider(line, {e[i], e[j], e[k], n});
-          }
+    for (const Pencil& pencil : families.pencils) consider(pencil.point, pencil.edge, n);
+    for (const std::array<int, 3>& triple : families.triples) consider(triple, n);
+    for (std::size_t i = 0; i < any.size(); ++i) {
+      for (std::size_t j = i + 1; j < any.size(); ++j) {
+        if (!apart(any[i], any[j])) continue;
+        for (std::size_t k = j + 1; k < any.size(); ++k) {
+          if (!apart(any[i], any[k]) || !apart(any[j], any[k])) continue;
+          consider({any[i], any[j], any[k]}, n);
         }
       }
     }
@@ -236,122 +230,85 @@ bool Search::plane_can_hold(int plane) const {
                              [&p](const Portal& q) { return plane_meets(p, q); });
 }
 
-/// Points of a plane that lines in it may be held at by what `old` touches.
-std::vector<int> Search::points_in_plane(const HeldLine& old, int plane) {
-  const Portal& polygon = s_.portals[plane];
-  std::vector<int> out;
-  for (const int p : old.points) {
-    if (side_of_plane(polygon, s_.points[p]) == Sign::Zero) out.push_back(p);
-  }
-  for (const int e : old.edges) {
-    if (auto p = crossing(edge(e), polygon)) {
-      out.push_back(point_id(*std::move(p)));
-      continue;
-    }
-    for (const Eigen::Vector3d& v : {edge(e).from, edge(e).to}) {
-      HomogeneousPoint p = homogeneous(v);
-      if (side_of_plane(polygon, p) == Sign::Zero) out.push_back(point_id(std::move(p)));
+/// Lines in the new portal's plane: that plane leaves a point of an edge's line, a line
+/// of another plane.
+void Search::in_new_plane(const LineFamilies& families) {
+  const PlaneThrough plane = portal_.plane();
+  std::map<int, int> points;  // where the lines of edges cross it
+  for (const int e : families.edges) {
+    if (auto p = line_crossing(edge(e), plane)) {
+      points[e] = s_.point_id(*std::move(p));
     }
   }
-  make_set(out);
-  return out;
-}
-
-void Search::in_new_plane(const HeldLine& old) {
-  const std::vector<int> points = points_in_plane(old, latest_);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = i + 1; j < points.size(); ++j) consider(points[i], points[j]);
-    for (const int p : new_points_) {
-      if (side_of_plane(portal_, s_.points[p]) == Sign::Zero) consider(points[i], p);
-    }
+  for (const auto& [e, f] : families.pairs) {
+    if (points.contains(e) && points.contains(f)) consider(points[e], points[f]);
+  }
+  for (const int p : new_points_) {
+    if (side_of_plane(portal_, s_.points[p]) != Sign::Zero) continue;
+    for (const auto& [e, q] : points) consider(p, q);
+  }
+  for (const Pencil& pencil : families.pencils) {
+    const auto line = line_in_plane(s_.points[pencil.point], edge(pencil.edge), portal_);
+    if (line) consider(*line);
+  }
+  for (const PlaneThrough& other : families.planes) {
+    if (const auto line = ExactLine::in_planes(other, plane)) consider(*line);
   }
 }
 
-void Search::in_old_planes(const HeldLine& old) {
-  for (const int plane : old.planes) {
-    const Portal& polygon = s_.portals[plane];
-    if (!polygon.planar || !plane_meets(polygon, portal_)) continue;
-    std::vector<int> points;
-    for (const int p : new_points_) {
-      if (side_of_plane(polygon, s_.points[p]) == Sign::Zero) points.push_back(p);
-    }
-    for (const LineThrough& e : portal_.edges) {
-      if (auto p = crossing(e, polygon)) points.push_back(point_id(*std::move(p)));
-    }
-    for (const int p : points_in_plane(old, plane)) {
-      for (const int q : points) consider(p, q);
-    }
-    if (portal_.shape != Shape::Polygon || !portal_.planar ||
-        !plane_pairs_.insert({plane, latest_}).second) {
-      continue;
-    }
-    if (const auto line = ExactLine::in_planes(polygon.plane(), portal_.plane())) {
-      consider(*line, {});
-    }
-  }
+void Search::try_families(const LineFamilies& families) {
+  through_new_points(families);
+  on_new_edges(families);
+  if (new_plane_) in_new_plane(families);
 }
 
 /// Next to the plane of a polygon that is not quite planar no extremal line stands for
 /// the families there.  While lines there can stab, every generator is tried.
-void Search::add_all_generators() {
+bool Search::all_needed() const {
   for (int a = 0; a < latest_ && latest_ > 1; ++a) {
     const Portal& p = s_.portals[a];
     const auto met = [&p](const Portal& q) { return plane_meets(p, q); };
-    if (p.planar || !std::ranges::all_of(s_.portals, met)) continue;
-    HeldLine all{ExactLine::through({0, 0, 0}, {1, 0, 0})};
-    for (int e = 0; e < s_.first_edges[latest_]; ++e) all.edges.push_back(e);
-    for (int i = 0; i < latest_; ++i) {
-      for (const Eigen::Vector3d& v : s_.portals[i].corners) {
-        all.points.push_back(point_id(homogeneous(v)));
-      }
-    }
-    make_set(all.points);
-    old_.push_back(std::move(all));
-    return;
+    if (!p.planar && std::ranges::all_of(s_.portals, met)) return true;
   }
+  return false;
 }
 
-void Search::run() {
+void Search::run(std::vector<HeldLine> old) {
   s_.statistics = {};
+  s_.held.clear();
   const bool first = latest_ == 0;
-  const bool dead = !first && s_.held.empty() && !s_.only_a_point;
-  const bool still_a_point =
+  const bool dead = !first && old.empty() && !s_.only_a_point;
+  const bool was_a_point = !first && s_.only_a_point;
+  s_.only_a_point =
       portal_.shape == Shape::Point &&
-      (first || (s_.only_a_point && portal_.corners[0] == s_.portals[0].corners[0]));
-  old_ = std::exchange(s_.held, {});
+      (first || (was_a_point && portal_.corners[0] == s_.portals[0].corners[0]));
+  if (dead || s_.only_a_point) return;
   for (int i = 0; i < static_cast<int>(portal_.edges.size()); ++i) {
     new_edges_.push_back(s_.first_edges[latest_] + i);
   }
-  if (!first && s_.only_a_point) {
-    // No line is extremal yet, but all are held at the point.
-    HeldLine at_point{ExactLine::through({0, 0, 0}, {1, 0, 0})};
-    at_point.points.push_back(point_id(homogeneous(s_.portals[0].corners[0])));
-    old_.push_back(std::move(at_point));
-  }
-  s_.only_a_point = still_a_point;
-  if (dead || still_a_point) return;
-  add_all_generators();
-
-  for (const HeldLine& old : old_) {
-    if (old.meetings.empty() || !meets(old.line, portal_)) continue;
-    HeldLine held = old;
+  for (const HeldLine& line : old) {
+    deadline_.check();
+    if (!meets(line.line, portal_)) continue;
+    HeldLine held = line;
     if (add_meeting(s_, held, latest_)) keep(std::move(held));
   }
   s_.statistics.kept = s_.held.size();
 
-  find_new_points();
+  find_new_points(old);
   for (std::size_t i = 0; i < new_points_.size(); ++i) {
     for (std::size_t j = i + 1; j < new_points_.size(); ++j) {
       consider(new_points_[i], new_points_[j]);
     }
   }
-  const bool new_plane = plane_can_hold(latest_);
-  for (const HeldLine& old : old_) {
-    through_new_points(old);
-    on_new_edges(old);
-    if (new_plane) in_new_plane(old);
-    in_old_planes(old);
+  new_plane_ = plane_can_hold(latest_);
+  if (was_a_point) {
+    // No line is extremal yet, but all are held at the point.
+    LineFamilies at_point;
+    at_point.stars.push_back(s_.point_id(homogeneous(s_.portals[0].corners[0])));
+    try_families(at_point);
   }
+  if (all_needed()) try_families(all_families(s_, latest_));
+  for (const HeldLine& line : old) try_families(families_at(s_, line));
   s_.statistics.found = s_.held.size() - s_.statistics.kept;
 }
 
@@ -412,7 +369,58 @@ void sort_lines(State& s) {
   for (const HeldLine& held : s.held) s.lines.push_back(as_public(s, held));
 }
 
+/// The first edge of the state on the same line as this one, or its own number.
+int carrier_of(const State& s, const LineThrough& e) {
+  for (std::size_t i = 0; i < s.edges.size(); ++i) {
+    const LineThrough& f = s.edges[i];
+    if (s.carriers[i] == static_cast<int>(i) && collinear(f.from, f.to, e.from) &&
+        collinear(f.from, f.to, e.to)) {
+      return static_cast<int>(i);
+    }
+  }
+  return static_cast<int>(s.edges.size());
+}
+
+void append(State& s, Portal portal) {
+  s.first_edges.push_back(static_cast<int>(s.edges.size()));
+  for (const LineThrough& e : portal.edges) {
+    s.carriers.push_back(carrier_of(s, e));
+    s.edges.push_back(e);
+    s.edge_portals.push_back(static_cast<int>(s.portals.size()));
+  }
+  s.portals.push_back(std::move(portal));
+}
+
+/// Undoes append().
+void remove_last(State& s) {
+  const int latest = static_cast<int>(s.portals.size()) - 1;
+  const auto edges = static_cast<std::size_t>(s.first_edges.back());
+  s.edges.resize(edges);
+  s.edge_portals.resize(edges);
+  s.carriers.resize(edges);
+  s.first_edges.pop_back();
+  s.portals.pop_back();
+  std::erase_if(s.without_order,
+                [latest](const auto& pair) { return pair.second == latest; });
+}
+
 }  // namespace
+
+int PortalState::point_id(HomogeneousPoint p) {
+  const auto [at, added] = point_ids.try_emplace(p, static_cast<int>(points.size()));
+  if (added) points.push_back(std::move(p));
+  return at->second;
+}
+
+std::vector<int> PortalState::edges_at(const PortalGenerator& generator) const {
+  const auto [kind, portal, index] = generator;
+  const int n = static_cast<int>(portals[portal].edges.size());
+  const int first = first_edges[portal];
+  if (kind == Kind::Edge) return {first + index};
+  if (n == 0) return {};
+  if (n == 1) return {first};  // a slit has one edge and two corners
+  return {first + index, first + (index + n - 1) % n};
+}
 
 bool add_meeting(const PortalState& state, HeldLine& held, int portal) {
   Meeting now = meeting(held.line, state.portals[portal], portal);
@@ -474,22 +482,30 @@ PortalSequence& PortalSequence::operator=(const PortalSequence& other) {
 PortalSequence::PortalSequence(PortalSequence&&) noexcept = default;
 PortalSequence& PortalSequence::operator=(PortalSequence&&) noexcept = default;
 
-void PortalSequence::push(std::span<const Eigen::Vector3d> corners) {
+bool PortalSequence::push(std::span<const Eigen::Vector3d> corners,
+                          const Request& request) {
+  const internal::Deadline deadline(request);
   internal::PortalState& s = *state_;
   const int index = static_cast<int>(s.portals.size());
   internal::Portal portal = internal::make_portal(corners, index);
   for (int i = 0; i < index; ++i) {
-    if (internal::interiors_cross(s.portals[i], portal))
+    if (internal::interiors_cross(s.portals[i], portal)) {
       s.without_order.insert({i, index});
+    }
   }
-  s.first_edges.push_back(static_cast<int>(s.edges.size()));
-  for (const LineThrough& e : portal.edges) {
-    s.edges.push_back(e);
-    s.edge_portals.push_back(index);
+  internal::append(s, std::move(portal));
+  const bool was_a_point = s.only_a_point;
+  std::vector<internal::HeldLine> old = std::exchange(s.held, {});
+  try {
+    internal::Search(s, deadline).run(old);
+  } catch (const internal::Stopped&) {
+    internal::remove_last(s);
+    s.held = std::move(old);
+    s.only_a_point = was_a_point;
+    return false;
   }
-  s.portals.push_back(std::move(portal));
-  internal::Search(s).run();
   internal::sort_lines(s);
+  return true;
 }
 
 std::size_t PortalSequence::size() const { return state_->portals.size(); }

@@ -22,6 +22,8 @@
 #include <string_view>
 #include <vector>
 
+#include "linespace/request.h"
+
 namespace sightline {
 
 namespace internal {
@@ -123,7 +125,10 @@ class PortalSequence {
   /// may be out of plane by rounding: the line must then pass all edges on one side.
   /// Throws InvalidInput when a coordinate is not admissible, there is no corner, or the
   /// polygon is not convex, and leaves the sequence as it was.
-  void push(std::span<const Eigen::Vector3d> corners);
+  /// False when the request's budget or stop token ended the search, within milliseconds
+  /// or, for huge coordinates, tens of them: then too the sequence is as it was.
+  /// Cost: docs/portals.md.
+  bool push(std::span<const Eigen::Vector3d> corners, const Request& request = {});
 
   [[nodiscard]] std::size_t size() const;
   /// Whether some line stabs the sequence; true of the empty one.
@@ -135,11 +140,15 @@ class PortalSequence {
   [[nodiscard]] const std::vector<ExtremalStabbingLine>& extremal_lines() const;
   /// Some stabbing line, through all interiors if one is found; nullopt when there is
   /// none (or no portal), and when all extremal ones are irrational and none was found
-  /// beside.
-  [[nodiscard]] std::optional<StabbingWitness> witness() const;
-  [[nodiscard]] StabbingRoom room() const;
-  /// The EV and EEE families that join extremal lines; `rungs` lines for each.
-  [[nodiscard]] std::vector<StabbingSwath> swaths(int rungs = 9) const;
+  /// beside.  When the request ends the search, an extremal one.
+  [[nodiscard]] std::optional<StabbingWitness> witness(const Request& request = {}) const;
+  /// Undecided also when the request ends the search.
+  [[nodiscard]] StabbingRoom room(const Request& request = {}) const;
+  /// The EV and EEE families that join extremal lines; `rungs` lines for each.  A family
+  /// that several edges of one plane or of one line hold is told once.  When the request
+  /// ends the search, those found so far.
+  [[nodiscard]] std::vector<StabbingSwath> swaths(int rungs = 9,
+                                                  const Request& request = {}) const;
   /// Portals that are not exactly planar.
   [[nodiscard]] std::vector<int> out_of_plane() const;
   [[nodiscard]] const PortalStatistics& last_push() const;

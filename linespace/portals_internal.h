@@ -2,11 +2,13 @@
 
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <set>
 #include <vector>
 
 #include "linespace/portal_internal.h"
+#include "linespace/request.h"
 
 namespace sightline::internal {
 
@@ -15,6 +17,7 @@ struct Contact {
   Place at;
   std::vector<PortalGenerator> generators;
   bool fixed = false;
+  int point = -1;  // of a fixed one, the sequence's number
 };
 
 /// An extremal line with what holds it.  Edges and points are the sequence's numbers.
@@ -48,6 +51,7 @@ struct PortalState {
   std::vector<Portal> portals;
   std::vector<LineThrough> edges;  // of all portals
   std::vector<int> edge_portals;   // whose they are
+  std::vector<int> carriers;       // the first edge that lies on the same line
   std::vector<int> first_edges;    // of each portal, a number in `edges`
   std::vector<HomogeneousPoint> points;
   std::map<HomogeneousPoint, int, Precedes> point_ids;
@@ -56,6 +60,32 @@ struct PortalState {
   bool only_a_point = true;  // all portals so far are one point
   PortalStatistics statistics;
   std::vector<ExtremalStabbingLine> lines;  // of `held`, in the same order
+
+  /// The number of a point, a new one if it was not there.
+  int point_id(HomogeneousPoint p);
+  /// The edges that a generator's corner or edge belongs to, one or two.
+  [[nodiscard]] std::vector<int> edges_at(const PortalGenerator& generator) const;
+};
+
+/// Thrown, and caught within the module, when a request's time is over.
+struct Stopped {};
+
+/// The time that a request leaves, counted from when this is made.
+class Deadline {
+ public:
+  explicit Deadline(const Request& request) : request_(request) {}
+  /// Throws Stopped when the budget is used up or a stop was asked for.
+  void check() const {
+    const std::chrono::duration<double> spent =
+        std::chrono::steady_clock::now() - started_;
+    if (request_.stop.stop_requested() || spent.count() >= request_.budget_seconds) {
+      throw Stopped();
+    }
+  }
+
+ private:
+  const Request& request_;
+  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace sightline::internal

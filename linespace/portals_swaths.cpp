@@ -4,45 +4,50 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 
-#include "linespace/portals_internal.h"
+#include "linespace/portal_families_internal.h"
 
 namespace sightline {
 namespace internal {
 namespace {
 
-/// Lines through a point and an edge {point, edge}, or through three edges; -1 for none.
+/// Lines through a point and an edge, or through three edges; -1 for none.  Of edges on
+/// one line, the first.
 struct Family {
   int point;
   std::array<int, 3> edges;
   friend auto operator<=>(const Family&, const Family&) = default;
 };
 
-bool on_line(const HomogeneousPoint& p, const LineThrough& e) {
-  const HomogeneousPoint from = homogeneous(e.from);
-  RingVector to_p;
-  for (int i = 0; i < 3; ++i) to_p[i] = p.x[i] - from.x[i] * p.w;
-  return std::ranges::all_of(cross(to_p, ring_difference(e.to, e.from)),
-                             [](const Ring& x) { return is_zero(x); });
+/// An edge of the line that the held line touches.
+std::optional<int> touched_on(const PortalState& s, const HeldLine& held, int carrier) {
+  for (const int e : held.edges) {
+    if (s.carriers[e] == carrier) return e;
+  }
+  return std::nullopt;
 }
 
-std::vector<Family> families_at(const PortalState& s, const HeldLine& held) {
+std::vector<Family> families_of(PortalState& s, const HeldLine& held) {
+  const LineFamilies families = families_at(s, held);
   std::vector<Family> out;
-  const std::vector<int>& e = held.edges;
-  for (const int p : held.points) {
-    for (const int a : e) {
-      if (!on_line(s.points[p], s.edges[a])) out.push_back({p, {a, -1, -1}});
-    }
-  }
-  const auto same = [&](int a, int b) { return s.edge_portals[a] == s.edge_portals[b]; };
-  for (std::size_t i = 0; i < e.size(); ++i) {
-    for (std::size_t j = i + 1; j < e.size(); ++j) {
-      for (std::size_t k = j + 1; k < e.size(); ++k) {
-        if (same(e[i], e[j]) || same(e[i], e[k]) || same(e[j], e[k])) continue;
-        out.push_back({-1, {e[i], e[j], e[k]}});
+  for (const Pencil& pencil : families.pencils) {
+    const HomogeneousPoint& p = s.points[pencil.point];
+    const LineThrough& in_plane = s.edges[pencil.edge];
+    for (const int e : held.edges) {
+      if (!lies_on(p, s.edges[e]) &&
+          in_plane_of(homogeneous(s.edges[e].from), p, in_plane) &&
+          in_plane_of(homogeneous(s.edges[e].to), p, in_plane)) {
+        out.push_back({pencil.point, {s.carriers[e], -1, -1}});
       }
     }
   }
+  for (std::array<int, 3> triple : families.triples) {
+    std::ranges::sort(triple);
+    out.push_back({-1, triple});
+  }
+  std::ranges::sort(out);
+  out.erase(std::unique(out.begin(), out.end()), out.end());
   return out;
 }
 
@@ -59,8 +64,14 @@ std::optional<HeldLine> line_at(const PortalState& s, const Family& f, double t)
     line = line_through(x, s.edges[f.edges[1]], s.edges[f.edges[2]]);
   }
   if (!line) return std::nullopt;
-  for (const int a : f.edges) {
-    if (a >= 0 && line->meets(s.edges[a]) == SegmentContact::None) return std::nullopt;
+  for (const int carrier : f.edges) {
+    if (carrier < 0) continue;
+    const auto touched = [&](std::size_t e) {
+      return s.carriers[e] == carrier && line->meets(s.edges[e]) != SegmentContact::None;
+    };
+    std::size_t e = 0;
+    while (e < s.edges.size() && !touched(e)) ++e;
+    if (e == s.edges.size()) return std::nullopt;
   }
   HeldLine held{*line};
   for (int i = 0; i < static_cast<int>(s.portals.size()); ++i) {
@@ -83,15 +94,23 @@ PortalGenerator edge_generator(const PortalState& s, int e) {
 
 class Swaths {
  public:
-  Swaths(const PortalState& s, int rungs) : s_(s), rungs_(std::max(rungs, 2)) {}
+  Swaths(PortalState& s, int rungs, const Deadline& deadline)
+      : s_(s), rungs_(std::max(rungs, 2)), deadline_(deadline) {}
 
   std::vector<StabbingSwath> run() {
     std::map<Family, std::vector<int>> members;
-    for (int i = 0; i < static_cast<int>(s_.held.size()); ++i) {
-      if (!s_.held[i].planes.empty()) continue;
-      for (const Family& f : families_at(s_, s_.held[i])) members[f].push_back(i);
+    try {
+      for (int i = 0; i < static_cast<int>(s_.held.size()); ++i) {
+        if (!s_.held[i].planes.empty()) continue;
+        deadline_.check();
+        for (const Family& f : families_of(s_, s_.held[i])) members[f].push_back(i);
+      }
+      for (auto& [family, lines] : members) {
+        if (lines.size() > 1) join(family, std::move(lines));
+      }
+    } catch (const Stopped&) {
+      // What was found so far is told.
     }
-    for (auto& [family, lines] : members) join(family, std::move(lines));
     return std::move(out_);
   }
 
@@ -133,6 +152,12 @@ class Swaths {
   }
 
   void add(const Family& f, int a, int b) {
+    deadline_.check();
+    // Two lines through one point span the pencil, whichever edge of it is named.
+    if (f.point >= 0 &&
+        !pencils_.insert({f.point, std::min(a, b), std::max(a, b)}).second) {
+      return;
+    }
     const LineThrough& e = s_.edges[f.edges[0]];
     const double from = parameter(e, a), to = parameter(e, b);
     if (!line_at(s_, f, from + 0.5 * (to - from))) return;
@@ -145,8 +170,10 @@ class Swaths {
         }
       }
     }
-    for (const int k : f.edges) {
-      if (k >= 0) swath.generators.push_back(edge_generator(s_, k));
+    for (const int carrier : f.edges) {
+      if (carrier < 0) continue;
+      const int touched = touched_on(s_, s_.held[a], carrier).value_or(carrier);
+      swath.generators.push_back(edge_generator(s_, touched));
     }
     swath.rungs.push_back(segment(s_.held[a]));
     for (int i = 1; i + 1 < rungs_; ++i) {
@@ -160,7 +187,7 @@ class Swaths {
   [[nodiscard]] bool at_point(const PortalGenerator& g, int point) const {
     const HomogeneousPoint& p = s_.points[point];
     if (g.kind == PortalGenerator::Kind::Edge) {
-      return on_line(p, s_.portals[g.portal].edges[g.index]);
+      return lies_on(p, s_.portals[g.portal].edges[g.index]);
     }
     const HomogeneousPoint v = homogeneous(s_.portals[g.portal].corners[g.index]);
     return !precedes(p, v) && !precedes(v, p);
@@ -170,16 +197,21 @@ class Swaths {
     swath.generators.push_back(g);
   }
 
-  const PortalState& s_;
+  PortalState& s_;
   int rungs_;
+  const Deadline& deadline_;
+  std::set<std::array<int, 3>> pencils_;  // point and both lines of those looked at
   std::vector<StabbingSwath> out_;
 };
 
 }  // namespace
 }  // namespace internal
 
-std::vector<StabbingSwath> PortalSequence::swaths(int rungs) const {
-  return internal::Swaths(*state_, rungs).run();
+std::vector<StabbingSwath> PortalSequence::swaths(int rungs,
+                                                  const Request& request) const {
+  const internal::Deadline deadline(request);
+  internal::PortalState scratch = *state_;  // points are added to it
+  return internal::Swaths(scratch, rungs, deadline).run();
 }
 
 }  // namespace sightline

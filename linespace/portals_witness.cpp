@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <sstream>
 
-#include "linespace/portals_internal.h"
+#include "linespace/matrix_game_internal.h"
+#include "linespace/portal_families_internal.h"
 
 namespace sightline {
 namespace internal {
@@ -68,7 +70,8 @@ HomogeneousPoint middle(const HomogeneousPoint& p, const HomogeneousPoint& q) {
 /// Lines between extremal ones, in doubles: what is between is not always inside, since
 /// the set is not convex, so several are tried: the mean of all, means of two and of
 /// three, and lines that go from an extremal one a little towards the mean.
-std::optional<StabbingWitness> witness_in_doubles(const PortalState& s) {
+std::optional<StabbingWitness> witness_in_doubles(const PortalState& s,
+                                                  const Deadline& deadline) {
   std::vector<Ends> ends;
   Ends mean{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   for (const HeldLine& held : s.held) ends.push_back(stations(held));
@@ -76,7 +79,8 @@ std::optional<StabbingWitness> witness_in_doubles(const PortalState& s) {
   for (const Ends& e : ends) {
     for (int k = 0; k < 2; ++k) mean[k] += share * e[k];
   }
-  const auto attempt = [&s](const Ends& e) -> std::optional<StabbingWitness> {
+  const auto attempt = [&](const Ends& e) -> std::optional<StabbingWitness> {
+    deadline.check();
     if (e[0] == e[1]) return std::nullopt;
     for (const Eigen::Vector3d& p : e) {
       if (!std::ranges::all_of(p, is_admissible)) return std::nullopt;
@@ -112,7 +116,8 @@ std::optional<StabbingWitness> witness_in_doubles(const PortalState& s) {
 }
 
 /// Where no doubles do: means of two, and of two means, of rational lines.
-std::optional<StabbingWitness> witness_in_rationals(const PortalState& s) {
+std::optional<StabbingWitness> witness_in_rationals(const PortalState& s,
+                                                    const Deadline& deadline) {
   std::vector<std::array<HomogeneousPoint, 2>> ends;
   constexpr std::size_t kTried = 16;
   for (const HeldLine& held : s.held) {
@@ -123,6 +128,7 @@ std::optional<StabbingWitness> witness_in_rationals(const PortalState& s) {
   std::vector<std::array<HomogeneousPoint, 2>> means;
   const auto attempt = [&](const auto& a,
                            const auto& b) -> std::optional<StabbingWitness> {
+    deadline.check();
     const std::array<HomogeneousPoint, 2> m{middle(a[0], b[0]), middle(a[1], b[1])};
     if (precedes(m[0], m[1]) == precedes(m[1], m[0])) return std::nullopt;
     if (!stabs_inside(s, line_through(m[0], m[1]))) return std::nullopt;
@@ -140,27 +146,6 @@ std::optional<StabbingWitness> witness_in_rationals(const PortalState& s) {
     }
   }
   return std::nullopt;
-}
-
-/// Of one polygon: across its middle.
-std::optional<StabbingWitness> witness_of_one(const PortalState& s) {
-  const Portal& p = s.portals.front();
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& v : p.corners)
-    mean += v / static_cast<double>(p.corner_count());
-  const HomogeneousPoint middle = homogeneous(mean);
-  HomogeneousPoint ahead = middle;
-  for (int i = 0; i < 3; ++i) ahead.x[i] = ahead.x[i] + p.normal[i];
-  if (!stabs_inside(s, line_through(middle, ahead))) return std::nullopt;
-  return witness_of({middle, ahead}, true);
-}
-
-std::optional<StabbingWitness> interior_witness(const PortalState& s) {
-  const auto polygon = [](const Portal& p) { return p.shape == Shape::Polygon; };
-  if (!std::ranges::all_of(s.portals, polygon) || s.held.empty()) return std::nullopt;
-  if (s.portals.size() == 1) return witness_of_one(s);
-  if (auto w = witness_in_doubles(s)) return w;
-  return witness_in_rationals(s);
 }
 
 /// An extremal line that is rational, if there is one; between two corners if possible.
@@ -213,95 +198,114 @@ bool has_room(const PortalState& s, const HeldLine& held) {
   return true;
 }
 
-using Row = std::array<CGAL::Gmpq, 6>;
+/// The planes of portals that a line lies in.
+struct PlanesAt {
+  std::vector<int> portals = {};  // one a plane
+  struct Member {
+    std::size_t plane;
+    bool aligned;  // its normal points as that of the plane's first portal
+  };
+  std::map<int, Member> members = {};  // all portals that lie in these planes
+};
 
-Row pluecker(const LineThrough& l, bool negated) {
-  const RingVector d = ring_difference(l.to, l.from);
-  const RingVector m = cross(ring_point(l.from), ring_point(l.to));
-  Row row;
-  for (int i = 0; i < 3; ++i) {
-    row[i] = CGAL::Gmpq(negated ? Ring(-d[i]) : d[i]);
-    row[3 + i] = CGAL::Gmpq(negated ? Ring(-m[i]) : m[i]);
+PlanesAt planes_at(const PortalState& s, const HeldLine& held) {
+  PlanesAt out;
+  for (const int p : held.planes) {
+    const Portal& polygon = s.portals[p];
+    if (!polygon.planar) continue;
+    const auto same = std::ranges::find_if(out.portals, [&](int q) {
+      const PlaneSide plane(s.portals[q].plane());
+      return std::ranges::all_of(polygon.corners, [&](const Eigen::Vector3d& v) {
+        return plane(v) == Sign::Zero;
+      });
+    });
+    const auto plane = static_cast<std::size_t>(same - out.portals.begin());
+    if (same == out.portals.end()) out.portals.push_back(p);
+    const Ring along = dot(polygon.normal, s.portals[out.portals[plane]].normal);
+    out.members[p] = {plane, sign_of(along) == Sign::Positive};
   }
-  return row;
+  return out;
 }
 
-/// Whether the rows, any fewer being independent, have positive multiples that add up to
-/// zero.
-bool balance(std::vector<Row> rows) {
-  // Columns are the rows' multipliers; eliminate all but the last.
-  const std::size_t n = rows.size();
-  std::size_t rank = 0;
-  std::vector<int> component;
-  for (std::size_t column = 0; column + 1 < n; ++column) {
-    int c = 0;
-    while (c < 6 && (std::ranges::count(component, c) > 0 || rows[column][c] == 0)) ++c;
-    if (c == 6) return false;
-    component.push_back(c);
-    ++rank;
-    for (int e = 0; e < 6; ++e) {
-      if (e == c || rows[column][e] == 0) continue;
-      const CGAL::Gmpq factor = rows[column][e] / rows[column][c];
-      for (std::size_t k = column; k < n; ++k) {
-        rows[k][e] = rows[k][e] - factor * rows[k][c];
-      }
+/// How lines near an extremal one can cross the planes that it lies in, one sign a plane
+/// (along its normal or against it).  Seen along the line these planes are lines through
+/// a point, and a line nearby is another: as that turns, one sign changes at a time.
+std::vector<std::vector<Sign>> ways_across(const PortalState& s, const HeldLine& held,
+                                           const std::vector<int>& planes) {
+  const ExactLine::Coordinates& c = held.line.coordinates();
+  const auto turn = [&](int i, int j) {
+    const RingVector n = cross(s.portals[i].normal, s.portals[j].normal);
+    return sign_of(c.d[0] * n[0] + c.d[1] * n[1] + c.d[2] * n[2], c.radicand);
+  };
+  std::vector<std::vector<Sign>> out;
+  if (planes.empty()) out.emplace_back();
+  for (const int i : planes) {
+    // Headed along d x normal of plane i, then against it, then turned a little.
+    for (const Sign way : {Sign::Positive, Sign::Negative}) {
+      std::vector<Sign> signs;
+      for (const int j : planes) signs.push_back(i == j ? -way : way * turn(i, j));
+      out.push_back(std::move(signs));
     }
   }
-  for (int e = 0; e < 6; ++e) {
-    const auto pivot = std::ranges::find(component, e);
-    const CGAL::Gmpq& last = rows[n - 1][e];
-    if (pivot == component.end()) {
-      if (last != 0) return false;
-    } else {
-      const CGAL::Gmpq& own =
-          rows[static_cast<std::size_t>(pivot - component.begin())][e];
-      if (!(last * own < 0)) return false;
-    }
-  }
-  return true;
+  return out;
 }
 
-bool some_balance(const std::vector<Row>& rows, std::vector<Row>& chosen,
-                  std::size_t next) {
-  constexpr std::size_t kLargest = 5;
-  if (chosen.size() >= 2 && balance(chosen)) return true;
-  if (chosen.size() == kLargest) return false;
-  for (std::size_t i = next; i < rows.size(); ++i) {
-    chosen.push_back(rows[i]);
-    if (some_balance(rows, chosen, i + 1)) return true;
-    chosen.pop_back();
+/// Whether some vector has a positive product with all rows.
+bool all_positive_somewhere(const std::vector<PlueckerRow>& rows) {
+  // The columns of the unit vectors and of their negated sum: together, with weights >=
+  // 0, they reach every vector.
+  ExactMatrixGame<7> game;
+  for (const PlueckerRow& row : rows) {
+    std::array<Rational, 7> values;
+    values[6] = 0;
+    for (int k = 0; k < 6; ++k) {
+      std::ostringstream text;
+      text << row[k];
+      values[k] = Rational(text.str());
+      values[6] -= values[k];
+    }
+    game.add(values);
   }
-  return false;
+  if (rows.empty()) return true;
+  game.solve();
+  return game.positive();
+}
+
+/// The side of a line on which lines through the portal's interior near it pass the
+/// portal's edges; Zero when that is not known.
+Sign inner_side(const PortalState& s, const HeldLine& held, int portal,
+                const PlanesAt& planes, const std::vector<Sign>& way) {
+  if (held.meetings[portal].in_plane) {
+    const auto member = planes.members.find(portal);
+    if (member == planes.members.end()) return Sign::Zero;  // not quite planar
+    const Sign across = way[member->second.plane];
+    return member->second.aligned ? across : -across;
+  }
+  for (const LineThrough& e : s.portals[portal].edges) {
+    const Sign side = held.line.side(e);
+    if (side != Sign::Zero) return side;
+  }
+  return Sign::Zero;
 }
 
 /// Proves that no line near an extremal one passes through all interiors: each such line
-/// L would have side(L, e) > 0 for touched edges e (turned as the portal is crossed),
-/// while positive multiples of these add up to zero identically.  A portal in whose plane
-/// the line lies may be crossed either way.
-bool proved_thin(const PortalState& s, const HeldLine& held) {
-  std::vector<int> both;
-  std::vector<std::pair<int, bool>> edges;  // number, negated
-  for (const int e : held.edges) {
-    const int p = s.edge_portals[e];
-    if (held.meetings[p].in_plane) {
-      if (std::ranges::count(both, p) == 0) both.push_back(p);
-      edges.emplace_back(e, false);
-      continue;
+/// L would have side(L, e) > 0 for all touched edges e, turned as their portals are
+/// crossed, but no vector has that product with all their Pluecker coordinates.
+bool proved_thin(const PortalState& s, const HeldLine& held, const Deadline& deadline) {
+  const PlanesAt planes = planes_at(s, held);
+  const std::vector<std::vector<Sign>> ways = ways_across(s, held, planes.portals);
+  return std::ranges::none_of(ways, [&](const std::vector<Sign>& way) {
+    deadline.check();
+    std::vector<PlueckerRow> rows;
+    for (const int e : held.edges) {
+      const Sign side = inner_side(s, held, s.edge_portals[e], planes, way);
+      if (side == Sign::Zero) continue;
+      rows.push_back(pluecker(s.edges[e]));
+      if (side == Sign::Positive) continue;
+      for (CGAL::Gmpq& x : rows.back()) x = -x;
     }
-    const auto crossed = std::ranges::find_if(
-        s.portals[p].edges,
-        [&](const LineThrough& l) { return held.line.side(l) != Sign::Zero; });
-    edges.emplace_back(e, held.line.side(*crossed) == Sign::Negative);
-  }
-  for (unsigned choice = 0; choice < 1U << both.size(); ++choice) {
-    std::vector<Row> rows, chosen;
-    for (const auto& [e, negated] : edges) {
-      const auto at = std::ranges::find(both, s.edge_portals[e]) - both.begin();
-      rows.push_back(pluecker(s.edges[e], negated != ((choice >> at & 1U) != 0)));
-    }
-    if (!some_balance(rows, chosen, 0)) return false;
-  }
-  return true;
+    return all_positive_somewhere(rows);
+  });
 }
 
 /// Some edge of `a` has `a` on one side and `b` on the other, both in one plane.
@@ -332,11 +336,53 @@ bool some_apart_in_one_plane(const PortalState& s) {
   return false;
 }
 
+/// None without stabbing lines; Open and Thin by proofs that need no witness; otherwise
+/// Undecided.
+StabbingRoom proved_room(const PortalState& s, const Deadline& deadline) {
+  if (!s.only_a_point && s.held.empty() && !s.portals.empty()) return StabbingRoom::None;
+  const auto polygon = [](const Portal& p) { return p.shape == Shape::Polygon; };
+  if (!std::ranges::all_of(s.portals, polygon) || some_apart_in_one_plane(s)) {
+    return StabbingRoom::Thin;
+  }
+  const auto open = [&](const HeldLine& held) {
+    deadline.check();
+    return has_room(s, held);
+  };
+  if (s.portals.empty() || std::ranges::any_of(s.held, open)) return StabbingRoom::Open;
+  const auto thin = [&](const HeldLine& held) { return proved_thin(s, held, deadline); };
+  return std::ranges::all_of(s.held, thin) ? StabbingRoom::Thin : StabbingRoom::Undecided;
+}
+
+/// Where all portals lie nearly in one plane: across it, through a common point.
+std::optional<StabbingWitness> witness_across(const PortalState& s) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const HeldLine& held : s.held) {
+    for (const Eigen::Vector3d& p : stations(held)) {
+      mean += p / static_cast<double>(2 * s.held.size());
+    }
+  }
+  if (!std::ranges::all_of(mean, is_admissible)) return std::nullopt;
+  const HomogeneousPoint middle = homogeneous(mean);
+  HomogeneousPoint ahead = middle;
+  for (int i = 0; i < 3; ++i) ahead.x[i] = ahead.x[i] + s.portals.front().normal[i];
+  if (!stabs_inside(s, line_through(middle, ahead))) return std::nullopt;
+  return witness_of({middle, ahead}, true);
+}
+
+/// A line through all interiors, if one is found.
+std::optional<StabbingWitness> interior_witness(const PortalState& s,
+                                                const Deadline& deadline) {
+  if (auto w = witness_across(s)) return w;
+  if (auto w = witness_in_doubles(s, deadline)) return w;
+  return witness_in_rationals(s, deadline);
+}
+
 }  // namespace
 }  // namespace internal
 
-std::optional<StabbingWitness> PortalSequence::witness() const {
+std::optional<StabbingWitness> PortalSequence::witness(const Request& request) const {
   const internal::PortalState& s = *state_;
+  const internal::Deadline deadline(request);
   if (s.portals.empty()) return std::nullopt;
   if (s.only_a_point) {
     const internal::HomogeneousPoint p = internal::homogeneous(s.portals[0].corners[0]);
@@ -344,28 +390,27 @@ std::optional<StabbingWitness> PortalSequence::witness() const {
     q.x[0] = q.x[0] + 1;
     return internal::witness_of({p, q}, false);
   }
-  if (auto w = internal::interior_witness(s)) return w;
+  try {
+    const StabbingRoom room = internal::proved_room(s, deadline);
+    if (room == StabbingRoom::Open || room == StabbingRoom::Undecided) {
+      if (auto w = internal::interior_witness(s, deadline)) return w;
+    }
+  } catch (const internal::Stopped&) {
+    // An extremal line costs nothing more.
+  }
   return internal::extremal_witness(s);
 }
 
-StabbingRoom PortalSequence::room() const {
-  const internal::PortalState& s = *state_;
-  if (!stabbable()) return StabbingRoom::None;
-  const auto polygon = [](const internal::Portal& p) {
-    return p.shape == internal::Portal::Shape::Polygon;
-  };
-  if (!std::ranges::all_of(s.portals, polygon) || internal::some_apart_in_one_plane(s)) {
-    return StabbingRoom::Thin;
+StabbingRoom PortalSequence::room(const Request& request) const {
+  const internal::Deadline deadline(request);
+  try {
+    const StabbingRoom proved = internal::proved_room(*state_, deadline);
+    if (proved != StabbingRoom::Undecided) return proved;
+    if (internal::interior_witness(*state_, deadline)) return StabbingRoom::Open;
+  } catch (const internal::Stopped&) {
+    // Neither proof was found.
   }
-  if (s.portals.empty() ||
-      std::ranges::any_of(s.held,
-                          [&](const auto& h) { return internal::has_room(s, h); }) ||
-      internal::interior_witness(s)) {
-    return StabbingRoom::Open;
-  }
-  const bool thin = std::ranges::all_of(
-      s.held, [&](const auto& h) { return internal::proved_thin(s, h); });
-  return thin ? StabbingRoom::Thin : StabbingRoom::Undecided;
+  return StabbingRoom::Undecided;
 }
 
 }  // namespace sightline

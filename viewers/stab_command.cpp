@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <iostream>
+#include <limits>
 
 #include "linespace/portals.h"
 #include "viewers/command_line.h"
@@ -15,6 +16,7 @@ namespace {
 
 struct StabOptions : CommonOptions {
   std::string method = "exact";
+  double budget = std::numeric_limits<double>::infinity();
   int rungs = 17;
   bool list = false;
 };
@@ -31,16 +33,40 @@ Question read_question(const std::string& name) {
   return q;
 }
 
-/// Calls push, and says of a refusal where in the file it belongs.
-template <class Sequence>
-void push(Sequence& sequence, const Question& question, std::size_t i) {
-  try {
-    sequence.push(question.portals[i]);
-  } catch (const InvalidInput& refusal) {
-    const std::string_view what = refusal.what();
-    question.items[i].refuse(what.substr(what.find(": ") + 2));
+/// Refuses, before anything is computed, what is no convex polygon, and says where in
+/// the file it stands.
+void check(const Question& question) {
+  for (std::size_t i = 0; i < question.portals.size(); ++i) {
+    try {
+      SeparatingPlanesSequence().push(question.portals[i]);
+    } catch (const InvalidInput& refusal) {
+      const std::string_view what = refusal.what();
+      question.items[i].refuse(what.substr(what.find(": ") + 2));
+    }
   }
 }
+
+/// The time of one command: its budget, counted from its start, and its interruption.
+class Terms {
+ public:
+  explicit Terms(double budget) : budget_(budget) {}
+  /// What is left of the budget.
+  [[nodiscard]] Request request() const {
+    Request request;
+    request.budget_seconds = budget_ - meter_.seconds();
+    request.stop = interruption_.token();
+    return request;
+  }
+  [[nodiscard]] bool over() const {
+    return interruption_.token().stop_requested() || meter_.seconds() >= budget_;
+  }
+  [[nodiscard]] const Meter& meter() const { return meter_; }
+
+ private:
+  Interruption interruption_;
+  Meter meter_;
+  double budget_;
+};
 
 std::string generator_text(const PortalGenerator& g) {
   const char letter = "VEP"[static_cast<int>(g.kind)];
@@ -100,11 +126,8 @@ const char* room_name(StabbingRoom room) {
 }
 
 /// "line" as two points: numbers, or strings "p/q" where no doubles are exact.
-void add_line(Json& answer, const PortalSequence& sequence) {
-  answer["line"] = nullptr;
-  answer["line_exact"] = nullptr;
-  answer["line_inside"] = nullptr;
-  if (const auto w = sequence.witness()) {
+void add_line(Json& answer, const PortalSequence& sequence, const Request& request) {
+  if (const auto w = sequence.witness(request)) {
     if (w->exact_in_doubles) {
       answer["line"] = points_json(w->points);
     } else {
@@ -143,7 +166,7 @@ std::vector<LineBlock::Polygon> drawn(const StabbingSwath& swath) {
 }
 
 void write_pictures(const StabOptions& options, const Question& question,
-                    const PortalSequence& sequence) {
+                    const PortalSequence& sequence, const Request& request) {
   std::vector<LineBlock> blocks;
   LineBlock portals{"portals", "portal", {}};
   LineBlock slits{"slits", "portal", {}};
@@ -166,7 +189,7 @@ void write_pictures(const StabOptions& options, const Question& question,
   }
   LineBlock ev{"swaths_EV", "EV", {}};
   LineBlock eee{"swaths_EEE", "EEE", {}};
-  for (const StabbingSwath& swath : sequence.swaths(options.rungs)) {
+  for (const StabbingSwath& swath : sequence.swaths(options.rungs, request)) {
     std::vector<LineBlock::Polygon>& to = swath.has_vertex ? ev.polygons : eee.polygons;
     for (LineBlock::Polygon& polygon : drawn(swath)) to.push_back(std::move(polygon));
   }
@@ -176,10 +199,16 @@ void write_pictures(const StabOptions& options, const Question& question,
 }
 
 void print_summary(const StabOptions& options, const Json& answer) {
-  std::cout << fmt::format(
-      "{}: {} portals, {}\n", options.scene,
-      answer["scene"]["portals"].get<std::size_t>(),
-      answer["stabbable"].get<bool>() ? "stabbable" : "not stabbable");
+  const Json& stabbable = answer["stabbable"];
+  std::cout << fmt::format("{}: {} portals, {}\n", options.scene,
+                           answer["scene"]["portals"].get<std::size_t>(),
+                           stabbable.is_null()     ? "not decided whether stabbable"
+                           : stabbable.get<bool>() ? "stabbable"
+                                                   : "not stabbable");
+  if (!answer["complete"].get<bool>()) {
+    std::cout << fmt::format("  stopped early: what follows is of the first {} portals\n",
+                             answer["portals_done"].get<std::size_t>());
+  }
   if (answer.contains("room")) {
     std::cout << fmt::format("  room: {}\n", answer["room"].get<std::string>());
     for (const auto& [kind, count] : answer["extremal"].items()) {
@@ -189,59 +218,87 @@ void print_summary(const StabOptions& options, const Json& answer) {
   std::cout << fmt::format("  {:.3f} s\n", answer["seconds"].get<double>());
 }
 
-Json head(const Question& question, const Meter& meter) {
+Json head(const Question& question, const Terms& terms, bool complete) {
   std::size_t corners = 0;
   for (const auto& p : question.portals) corners += p.size();
   return answer_head("stab",
                      Json{{"portals", question.portals.size()}, {"corners", corners}},
-                     true, {meter.seconds(), meter.predicates()});
+                     complete, {terms.meter().seconds(), terms.meter().predicates()});
+}
+
+ExitStatus finish(const StabOptions& options, Outputs& outputs, const Json& answer) {
+  outputs.write_answer(answer);
+  if (options.may_print()) print_summary(options, answer);
+  return answer["complete"].get<bool>() ? kAnswered : kPartial;
 }
 
 ExitStatus run_conservative(const StabOptions& options, Outputs& outputs,
-                            const Question& question, const Meter& meter) {
+                            const Question& question, const Terms& terms) {
   SeparatingPlanesSequence sequence;
-  for (std::size_t i = 0; i < question.portals.size(); ++i) push(sequence, question, i);
-  Json answer = head(question, meter);
+  for (const std::vector<Point>& portal : question.portals) {
+    if (terms.over()) break;
+    sequence.push(portal);
+  }
+  const bool complete = sequence.size() == question.portals.size();
+  Json answer = head(question, terms, complete || !sequence.maybe_stabbable());
   answer["method"] = "conservative";
-  answer["stabbable"] = sequence.maybe_stabbable();
-  outputs.write_answer(answer);
-  if (options.may_print()) print_summary(options, answer);
-  return kAnswered;
+  answer["portals_done"] = sequence.size();
+  // A longer sequence is not easier to stab.
+  answer["stabbable"] = nullptr;
+  if (complete || !sequence.maybe_stabbable()) {
+    answer["stabbable"] = sequence.maybe_stabbable();
+  }
+  return finish(options, outputs, answer);
 }
 
-ExitStatus run(const StabOptions& options) {
-  Outputs outputs(options);
-  const Meter meter;
-  const Question question = read_question(options.scene);
-  if (options.method == "conservative") {
-    return run_conservative(options, outputs, question, meter);
-  }
-  PortalSequence sequence;
+/// Pushes portals until the time is over; what each push did.
+Json push_all(PortalSequence& sequence, const Question& question, const Terms& terms) {
+  Progress progress("portals");
+  const auto report = progress.callback();
   Json pushes = Json::array();
   for (std::size_t i = 0; i < question.portals.size(); ++i) {
     const Meter push_meter;
-    push(sequence, question, i);
+    if (!sequence.push(question.portals[i], terms.request())) break;
     pushes.push_back({{"portal", i},
                       {"stabbable", sequence.stabbable()},
                       {"extremal", sequence.extremal_lines().size()},
                       {"candidates", sequence.last_push().candidates},
                       {"milliseconds", 1e3 * push_meter.seconds()}});
+    if (report) {
+      report(static_cast<double>(i + 1) / static_cast<double>(question.portals.size()));
+    }
   }
+  return pushes;
+}
+
+ExitStatus run(const StabOptions& options) {
+  const Terms terms(options.budget);
+  Outputs outputs(options);
+  const Question question = read_question(options.scene);
+  check(question);
+  if (options.method == "conservative") {
+    return run_conservative(options, outputs, question, terms);
+  }
+  PortalSequence sequence;
+  Json pushes = push_all(sequence, question, terms);
+  const bool all = sequence.size() == question.portals.size();
   Json found;
   found["method"] = "exact";
-  found["stabbable"] = sequence.stabbable();
-  found["room"] = room_name(sequence.room());
+  found["portals_done"] = sequence.size();
+  found["stabbable"] = nullptr;
+  if (all || !sequence.stabbable()) found["stabbable"] = sequence.stabbable();
+  found["room"] =
+      room_name(all ? sequence.room(terms.request()) : StabbingRoom::Undecided);
   found["extremal"] = counts_json(sequence);
-  add_line(found, sequence);
+  for (const char* key : {"line", "line_exact", "line_inside"}) found[key] = nullptr;
+  if (all) add_line(found, sequence, terms.request());
   found["out_of_plane"] = sequence.out_of_plane();
   found["pushes"] = std::move(pushes);
   if (options.list) found["list"] = list_json(sequence);
-  Json answer = head(question, meter);
+  if (!options.vtk.empty()) write_pictures(options, question, sequence, terms.request());
+  Json answer = head(question, terms, all && !terms.over());
   answer.update(found);
-  if (!options.vtk.empty()) write_pictures(options, question, sequence);
-  outputs.write_answer(answer);
-  if (options.may_print()) print_summary(options, answer);
-  return kAnswered;
+  return finish(options, outputs, answer);
 }
 
 }  // namespace
@@ -270,6 +327,7 @@ Command add_stab_command(CLI::App& app) {
                    "lines drawn of each EV and EEE family in --vtk files")
       ->check(whole_number(2, 10000))
       ->capture_default_str();
+  add_budget_option(*command, options->budget);
   add_common_options(*command, *options);
   return [options] { return run(*options); };
 }

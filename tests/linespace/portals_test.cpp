@@ -8,6 +8,7 @@
 #include <map>
 #include <numbers>
 #include <set>
+#include <stop_token>
 #include <string>
 
 #include "linespace/scene.h"
@@ -495,6 +496,148 @@ TEST(PortalSequence, RefusesWhatIsNoConvexPolygon) {
   EXPECT_EQ(s.size(), 0U);
   s.push(square(0));
   EXPECT_EQ(s.size(), 1U);
+}
+
+// ---- rows of portals that are lined up -----------------------------------------------
+
+NaivePortal door(double y, double x0, double x1, double z0, double z1) {
+  return {{x0, y, z0}, {x1, y, z0}, {x1, y, z1}, {x0, y, z1}};
+}
+
+/// Rows of n portals that lines touch in many places at once, by name.
+std::map<std::string, Portals> lined_up(int n, RandomGeometry& random) {
+  std::map<std::string, Portals> rows;
+  for (int i = 0; i < n; ++i) {
+    const double y = 5 * i, step = std::ldexp(1, i);
+    rows["equal"].push_back(door(y, 0, 1, 0, 2));
+    rows["sizes"].push_back(door(y, 0, random.integer(1, 3), 0, random.integer(2, 4)));
+    rows["centred"].push_back(
+        door(y, -random.integer(1, 3), 1, -1, random.integer(1, 3)));
+    rows["one edge"].push_back(random.one_in(2) ? door(y, 0, 1, 0, 2)
+                                                : door(y, -1, 0, 0, 2));
+    rows["powers of two"].push_back(door(step, -step, step, -step, step));
+    rows["slits"].push_back(i % 2 == 0 ? NaivePortal{{0, y, 0}, {0, y, 2}}
+                                       : NaivePortal{{-1, y, 1}, {1, y, 1}});
+    rows["slits and doors"].push_back(i % 3 == 0 ? NaivePortal{{0, y, 0}, {1, y, 2}}
+                                                 : door(y, 0, 1, 0, 2));
+    rows["touching"].push_back(
+        {{1.0 * i, 0, 0}, {1.0 * i, 0, 2}, {i + 1.0, 0, 2}, {i + 1.0, 0, 0}});
+    rows["grid"].push_back(door(y, random.integer(0, 2), random.integer(4, 6),
+                                random.integer(0, 2), random.integer(4, 6)));
+    // Across x and across y by turns, with corners on one line.
+    const double low = i - 4, high = i + 4;
+    rows["stairs"].push_back(i % 2 == 0 ? NaivePortal{{low, 1.0 * i, low},
+                                                      {high, 1.0 * i, low},
+                                                      {high, 1.0 * i, high},
+                                                      {low, 1.0 * i, high}}
+                                        : NaivePortal{{1.0 * i, low, low},
+                                                      {1.0 * i, high, low},
+                                                      {1.0 * i, high, high},
+                                                      {1.0 * i, low, high}});
+  }
+  for (const NaivePortal& p : rows["equal"]) {
+    rows["slanted"].emplace_back();
+    rows["turned and rounded"].emplace_back();
+    for (const Eigen::Vector3d& v : p) {
+      rows["slanted"].back().emplace_back(3 * v.x() + v.y() + 2 * v.z(),
+                                          v.y() + 7 * v.z(), 5 * v.z() + v.x());
+      rows["turned and rounded"].back().emplace_back(0.8 * v.x() - 0.6 * v.y(),
+                                                     0.6 * v.x() + 0.8 * v.y(), v.z());
+    }
+  }
+  return rows;
+}
+
+TEST(PortalSequence, AgreesWithTheNaiveEnumerationOnRows) {
+  RandomGeometry random(26);
+  for (int i = 0; i < 2; ++i) {
+    for (const auto& [name, portals] : lined_up(3, random)) {
+      // The oracle tells lines apart by rounding, which repeats some of these.
+      if (name == "turned and rounded") continue;
+      EXPECT_EQ(undirected(described(sequence(portals))),
+                undirected(naive_extremal_lines(portals)))
+          << name << "\n"
+          << text(portals);
+    }
+  }
+}
+
+// The lines that a push constructs do not become more with the row but for coplanar
+// portals, where they grow as the places that lines in the plane touch.
+TEST(PortalSequence, TriesNoMoreLinesInLongRowsThanInShortOnes) {
+  RandomGeometry random(27);
+  for (const auto& [name, portals] : lined_up(40, random)) {
+    PortalSequence s;
+    std::size_t most = 0;
+    for (const NaivePortal& p : portals) {
+      s.push(p);
+      most = std::max(most, s.last_push().candidates);
+    }
+    EXPECT_LE(most, 600U) << name;
+    EXPECT_TRUE(s.stabbable()) << name;
+    const bool thin = name == "slits" || name == "slits and doors" ||
+                      name == "touching" || name == "one edge";
+    EXPECT_EQ(s.room(), thin ? StabbingRoom::Thin : StabbingRoom::Open) << name;
+    EXPECT_LE(s.swaths(3).size(), 200U) << name;
+  }
+}
+
+// Doors between which only lines in one plane pass: none has room, and the proof needs
+// one sum of many edges.
+TEST(PortalSequence, ProvesRowsThin) {
+  Portals portals;
+  for (int i = 0; i < 30; ++i) {
+    portals.push_back(i % 2 == 0 ? door(i, 0, 1, 0, 2) : door(i, -1, 0, 0, 2));
+  }
+  EXPECT_EQ(sequence(portals).room(), StabbingRoom::Thin);
+  EXPECT_FALSE(sequence(portals).witness()->interior);
+}
+
+TEST(PortalSequence, OnePortalManyTimesIsOpen) {
+  const PortalSequence s = sequence(Portals(30, square(0)));
+  EXPECT_EQ(counts(s), (std::map<std::string, int>{{"in_plane", 6}}));
+  EXPECT_EQ(s.room(), StabbingRoom::Open);
+  ASSERT_TRUE(s.witness());
+  expect_inside(*s.witness(), {square(0)});
+}
+
+TEST(PortalSequence, StoppedPushLeavesTheSequenceAsItWas) {
+  RandomGeometry random(28);
+  std::stop_source stopped;
+  stopped.request_stop();
+  Request at_once, no_time;
+  at_once.stop = stopped.get_token();
+  no_time.budget_seconds = 0;
+  for (int i = 0; i < 30; ++i) {
+    const Portals portals = random_portals(random);
+    PortalSequence s;
+    for (const NaivePortal& p : portals) {
+      const auto before = described(s);
+      const bool dead = !s.stabbable();
+      for (const Request& request : {at_once, no_time}) {
+        // Nothing is left to search for once no line stabs.
+        const std::size_t size = s.size();
+        if (s.push(p, request)) {
+          EXPECT_TRUE(dead || s.extremal_lines().empty());
+          continue;
+        }
+        EXPECT_EQ(s.size(), size);
+        EXPECT_EQ(described(s), before);
+      }
+      if (!dead) {
+        EXPECT_TRUE(s.push(p));
+      }
+    }
+    if (s.size() == portals.size()) {
+      EXPECT_EQ(described(s), described(sequence(portals))) << text(portals);
+    }
+    if (s.stabbable() && s.room() == StabbingRoom::Undecided) continue;
+    EXPECT_NO_THROW({
+      (void)s.room(no_time);
+      (void)s.witness(no_time);
+      EXPECT_TRUE(s.swaths(3, no_time).empty());
+    });
+  }
 }
 
 // ---- the conservative version

@@ -762,6 +762,33 @@ TEST_F(Questions, StabWhatCannotBe) {
   EXPECT_EQ(answer({"stab", file(R"({"portals": []})")}).at("stabbable"), true);
 }
 
+// Took hours when all triples of touched edges were tried (case portals-enfilade).
+TEST_F(Questions, StabFortyDoorsInARow) {
+  const json j =
+      answer({"stab", std::string(SIGHTLINE_TEST_DATA) + "/portals/doors40.json"});
+  EXPECT_EQ(j.at("complete"), true);
+  EXPECT_EQ(j.at("stabbable"), true);
+  EXPECT_EQ(j.at("room"), "open");
+  EXPECT_EQ(j.at("extremal"), json::parse(R"({"VV":4,"VEE":0,"EVE":0,"EEEE":0,
+                                              "in_plane":0,"degenerate":12})"));
+  EXPECT_EQ(j.at("portals_done"), 40);
+}
+
+TEST_F(Questions, StabSaysHowFarItCameWithinItsBudget) {
+  const std::string doors = std::string(SIGHTLINE_TEST_DATA) + "/portals/doors40.json";
+  for (const char* method : {"exact", "conservative"}) {
+    const json j = answer({"stab", doors, "--budget", "1e-9", "--method", method}, 3);
+    EXPECT_EQ(j.at("complete"), false);
+    EXPECT_EQ(j.at("portals_done"), 0);
+    EXPECT_TRUE(j.at("stabbable").is_null());
+  }
+  // What is no polygon is refused whatever the budget is.
+  expect_refused({"stab", file(R"({"portals": [[[0,0,0]],
+                                   [[0,0,0],[2,0,0],[0.5,0.5,0],[0,2,0]]]})"),
+                  "--budget", "1e-9"},
+                 "portals[1]: not convex");
+}
+
 TEST_F(Questions, StabAsVtkFiles) {
   const std::string vtk = (folder_ / "vtk").string();
   const Run r = run({"stab", file(kThreeWindows), "--vtk", vtk});
