@@ -1,0 +1,38 @@
+#include "fuzz_functions.h"
+
+#include <array>
+
+#include "linespace/mesh_io_internal.h"
+
+namespace sightline::fuzz {
+namespace {
+
+using Reader = PolygonSoup (*)(const std::string& path, std::string_view bytes);
+
+template <Reader read>
+void run_reader(const std::string& bytes) {
+  try {
+    (void)read("fuzz", bytes);
+  } catch (const InvalidInput&) {
+  }
+}
+
+void run_step(const std::string& bytes) {
+  try {
+    internal::check_step("fuzz", bytes);
+  } catch (const InvalidInput&) {
+  }
+}
+
+constexpr std::array kFunctions{Function{"gltf", run_reader<internal::read_gltf>},
+                                Function{"obj", run_reader<internal::read_obj>},
+                                Function{"off", run_reader<internal::read_off>},
+                                Function{"ply", run_reader<internal::read_ply>},
+                                Function{"stl", run_reader<internal::read_stl>},
+                                Function{"step", run_step}};
+
+}  // namespace
+
+std::span<const Function> functions() { return kFunctions; }
+
+}  // namespace sightline::fuzz
