@@ -129,7 +129,8 @@ GroupAnswer FaceVisibility::between(std::span<const int> as, std::span<const int
     answer.predicates.by_exact += after.by_exact - before.by_exact;
     ++done;
     if (request.progress) {
-      request.progress(static_cast<double>(done) / static_cast<double>(as.size()));
+      request.progress("pairs of faces",
+                       static_cast<double>(done) / static_cast<double>(as.size()));
     }
   };
   tbb::task_arena arena(request.threads > 0 ? request.threads

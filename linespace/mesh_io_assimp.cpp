@@ -178,20 +178,24 @@ std::string one_line(std::string text) {
 
 }  // namespace
 
-PolygonSoup read_with_assimp(const std::string& path, const std::string& extension) {
+PolygonSoup read_with_assimp(const std::string& path, const std::string& extension,
+                             Stage& stage) {
   const auto known = assimp_extensions();
   if (!std::binary_search(known.begin(), known.end(), extension)) {
     refuse(path, "no mesh format is known by the extension " + quoted(extension));
   }
-  if (extension == "ifc") check_step(path, load_file(path));
-  if (extension == "glb") check_glb(path, load_file(path));
+  if (extension == "ifc") check_step(path, load_file(path, stage));
+  if (extension == "glb") check_glb(path, load_file(path, stage));
   try {
     Assimp::Importer importer;
     // Polygons stay whole where the format has them: Scene cuts them exactly.
     const aiScene* const scene = importer.ReadFile(path, 0);
     if (scene == nullptr) refuse(path, one_line(importer.GetErrorString()));
+    stage.check(1);
     return SceneWalker(path, *scene).walk(extension == "ifc" || extension == "ifczip");
   } catch (const InvalidInput&) {
+    throw;
+  } catch (const Stopped&) {
     throw;
   } catch (const std::exception& error) {
     refuse(path, "cannot be read: " + one_line(error.what()));
@@ -215,7 +219,8 @@ std::vector<std::string> assimp_extensions() {
 
 #else
 
-PolygonSoup read_with_assimp(const std::string& path, const std::string& extension) {
+PolygonSoup read_with_assimp(const std::string& path, const std::string& extension,
+                             Stage&) {
   refuse(path, "the format " + quoted(extension) +
                    " needs assimp, which this build is without");
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "linespace/mesh_io.h"
+#include "linespace/stage_internal.h"
 
 namespace sightline::internal {
 
@@ -16,13 +17,18 @@ namespace sightline::internal {
                               const std::string& message);
 
 /// The bytes of a file that is not empty.
-[[nodiscard]] std::string load_file(const std::string& path);
+[[nodiscard]] std::string load_file(const std::string& path, Stage& stage);
 
 /// Walks over the lines of a text; `\r\n` and `\r` end a line as `\n` does.
 class LineReader {
  public:
-  LineReader(const std::string& path, std::string_view text, std::size_t first_line = 1)
-      : path_(path), rest_(text), next_number_(first_line) {}
+  LineReader(const std::string& path, std::string_view text, Stage& stage,
+             std::size_t first_line = 1)
+      : path_(path),
+        stage_(stage),
+        rest_(text),
+        size_(text.size()),
+        next_number_(first_line) {}
 
   /// Moves on to the next line; false at the end of the text.
   bool next();
@@ -52,7 +58,9 @@ class LineReader {
 
  private:
   const std::string& path_;
+  Stage& stage_;
   std::string_view rest_, line_;
+  std::size_t size_;  // of the whole text
   std::size_t next_number_, number_ = 0;
 };
 
@@ -63,17 +71,21 @@ class LineReader {
 /// A token or line as it may stand in a message: printable, shortened.
 [[nodiscard]] std::string quoted(std::string_view text);
 
-[[nodiscard]] PolygonSoup read_obj(const std::string& path, std::string_view text);
-[[nodiscard]] PolygonSoup read_off(const std::string& path, std::string_view text);
-[[nodiscard]] PolygonSoup read_ply(const std::string& path, std::string_view bytes);
-[[nodiscard]] PolygonSoup read_stl(const std::string& path, std::string_view bytes);
+[[nodiscard]] PolygonSoup read_obj(const std::string& path, std::string_view text,
+                                   Stage& stage);
+[[nodiscard]] PolygonSoup read_off(const std::string& path, std::string_view text,
+                                   Stage& stage);
+[[nodiscard]] PolygonSoup read_ply(const std::string& path, std::string_view bytes,
+                                   Stage& stage);
+[[nodiscard]] PolygonSoup read_stl(const std::string& path, std::string_view bytes,
+                                   Stage& stage);
 
 /// Refuses an IFC file that ends early, is no text, or names records that it lacks.
 void check_step(const std::string& path, std::string_view text);
 
 /// Through assimp; throws InvalidInput when the build has none.
 [[nodiscard]] PolygonSoup read_with_assimp(const std::string& path,
-                                           const std::string& extension);
+                                           const std::string& extension, Stage& stage);
 [[nodiscard]] std::vector<std::string> assimp_extensions();
 
 }  // namespace sightline::internal

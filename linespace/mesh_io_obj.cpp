@@ -22,8 +22,8 @@ constexpr std::array<std::string_view, 41> kIgnored{
 
 class ObjReader {
  public:
-  ObjReader(const std::string& path, std::string_view text)
-      : path_(path), lines_(path, text) {}
+  ObjReader(const std::string& path, std::string_view text, Stage& stage)
+      : path_(path), stage_(stage), lines_(path, text, stage) {}
 
   PolygonSoup read() {
     while (lines_.next_filled('#')) {
@@ -56,7 +56,7 @@ class ObjReader {
       joined.append(part).push_back(' ');
       if (!more || !lines_.next()) break;
     }
-    LineReader statement(path_, joined, first);
+    LineReader statement(path_, joined, stage_, first);
     if (statement.next_filled('#')) read_statement(statement);
   }
 
@@ -133,6 +133,7 @@ class ObjReader {
   }
 
   const std::string& path_;
+  Stage& stage_;
   LineReader lines_;
   PolygonSoup soup_;
   std::unordered_map<std::string, int> numbers_;
@@ -145,8 +146,8 @@ class ObjReader {
 
 }  // namespace
 
-PolygonSoup read_obj(const std::string& path, std::string_view text) {
-  return ObjReader(path, text).read();
+PolygonSoup read_obj(const std::string& path, std::string_view text, Stage& stage) {
+  return ObjReader(path, text, stage).read();
 }
 
 }  // namespace sightline::internal

@@ -27,8 +27,8 @@ void check_count(const LineReader& lines, long long count, std::size_t bytes,
 
 }  // namespace
 
-PolygonSoup read_off(const std::string& path, std::string_view text) {
-  LineReader lines(path, text);
+PolygonSoup read_off(const std::string& path, std::string_view text, Stage& stage) {
+  LineReader lines(path, text, stage);
   if (!lines.next_filled('#')) refuse(path, "no OFF header");
   const std::string_view header = lines.token();
   if (!is_supported_header(header)) {

@@ -29,12 +29,13 @@ void append_triangle(PolygonSoup& soup) {
 }
 
 PolygonSoup read_binary(const std::string& path, std::string_view bytes,
-                        std::uint32_t count) {
+                        std::uint32_t count, Stage& stage) {
   if (count > std::numeric_limits<int>::max() / 3) refuse(path, "too many triangles");
   PolygonSoup soup;
   soup.vertices.reserve(std::size_t{3} * count);
   soup.polygons.reserve(count);
   for (std::size_t f = 0; f < count; ++f) {
+    stage.at(f, count);
     const char* at = bytes.data() + kHeaderBytes + kTriangleBytes * f + 12;
     for (int corner = 0; corner < 3; ++corner) {
       Point p;
@@ -61,8 +62,8 @@ bool same_word(std::string_view token, std::string_view lower_case) {
 
 class AsciiReader {
  public:
-  AsciiReader(const std::string& path, std::string_view text)
-      : path_(path), lines_(path, text) {}
+  AsciiReader(const std::string& path, std::string_view text, Stage& stage)
+      : path_(path), lines_(path, text, stage) {}
 
   PolygonSoup read() {
     if (!lines_.next_filled()) refuse(path_, "no solid");
@@ -138,19 +139,19 @@ class AsciiReader {
 
 }  // namespace
 
-PolygonSoup read_stl(const std::string& path, std::string_view bytes) {
+PolygonSoup read_stl(const std::string& path, std::string_view bytes, Stage& stage) {
   // Binary files may begin with "solid" too: the size decides, then the word.
   if (bytes.size() >= kHeaderBytes) {
     const std::uint32_t count = little_endian(bytes.data() + 80);
     const std::size_t needed = kHeaderBytes + kTriangleBytes * std::size_t{count};
-    if (bytes.size() == needed) return read_binary(path, bytes, count);
+    if (bytes.size() == needed) return read_binary(path, bytes, count, stage);
     if (!same_word(bytes.substr(0, 5), "solid")) {
       refuse(path, "announces " + std::to_string(count) + " triangles, that is " +
                        std::to_string(needed) + " bytes, but has " +
                        std::to_string(bytes.size()) + " bytes");
     }
   }
-  return AsciiReader(path, bytes).read();
+  return AsciiReader(path, bytes, stage).read();
 }
 
 }  // namespace sightline::internal

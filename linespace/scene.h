@@ -17,6 +17,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "linespace/request.h"
+
 namespace sightline {
 
 namespace internal {
@@ -121,8 +123,11 @@ class Scene {
   /// Validates and derives everything.  Throws InvalidInput for what no analysis can use:
   /// non-finite coordinates, a coordinate other than 0 whose magnitude is outside
   /// [2^-140, 2^140], indices out of range, no faces.  Other defects are kept in
-  /// defects(); faces of zero area block nothing and are left out of faces().
-  explicit Scene(PolygonSoup soup, const SceneOptions& options = {});
+  /// defects(); faces of zero area block nothing and are left out of faces().  Of the
+  /// request, budget, stop and progress count; throws Stopped.  Cost: n log n for n
+  /// faces.
+  explicit Scene(PolygonSoup soup, const SceneOptions& options = {},
+                 const Request& request = {});
 
   /// Distinct points used by faces, in order of first use: point ids index this.
   [[nodiscard]] std::span<const Point> points() const { return points_; }

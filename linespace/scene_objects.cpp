@@ -189,6 +189,7 @@ void SceneBuilder::describe_objects() {
     if (sets.find(i) == i && balanced[f]) ++scene.solids_;
   }
   for (std::size_t i = 0; i < scene.objects_.size(); ++i) {
+    stage.at(i, scene.objects_.size());
     Object& object = scene.objects_[i];
     object.convex = object.closed && bulges[i] && bounds_convex_solid(scene, object);
   }

@@ -278,7 +278,7 @@ class Search {
   void report(double fraction) {
     if (!request_.progress) return;
     const std::scoped_lock lock(reporting_);
-    request_.progress(fraction);
+    request_.progress("transversals", fraction);
   }
 
   const LineThrough& line(int i) const {

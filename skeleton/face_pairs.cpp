@@ -256,8 +256,7 @@ void add_pair(const FoundFacePair& found, NodeJoiner& nodes) {
 }  // namespace
 
 void add_face_pairs(const Generators& generators, const SkeletonRequest& request,
-                    std::chrono::steady_clock::time_point start,
-                    std::array<double, 2> progress, Skeleton& skeleton,
+                    std::chrono::steady_clock::time_point start, Skeleton& skeleton,
                     NodeJoiner& nodes) {
   const Scene& scene = generators.scene();
   const FacetPart part = facet_part(generators, request);
@@ -276,7 +275,7 @@ void add_face_pairs(const Generators& generators, const SkeletonRequest& request
   }
   const Bvh tree(boxes);
   skeleton.stopped_by = for_each_parallel(
-      firsts.size(), request, start, progress, skeleton.predicates,
+      firsts.size(), request, start, "FF nodes", skeleton.predicates,
       [&] { return std::make_unique<FacePairs>(generators, tree, part); },
       [&](FacePairs& pairs, std::size_t i) {
         std::vector<FoundFacePair> found;

@@ -3,8 +3,10 @@
 #include <cassert>
 #include <optional>
 
+#include "linespace/solid_index_internal.h"
 #include "linespace/transversals_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/parallel_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -83,13 +85,15 @@ Rational InPlaneSide::value(const Point& p, const Point& q, const Point& x) cons
          (Rational(q[j]) - Rational(p[j])) * (Rational(x[i]) - Rational(p[i]));
 }
 
-Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
+Generators::Generators(const Scene& scene, EventMode events, const Request& request,
+                       Stage::Clock::time_point start)
     : scene_(&scene),
       events_(events),
       face_boxes_(boxes_of_faces(scene)),
       face_tree_(face_boxes_),
       ridge_tree_(std::vector<Box>{}),
       blocker_tree_(std::vector<Box>{}) {
+  Stage stage(request, "planes", start);
   face_planes_.reserve(scene.faces().size());
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
     face_planes_.emplace_back(face_plane_through(scene, static_cast<int>(f)));
@@ -107,9 +111,12 @@ Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
   find_object_boxes();
   find_blockers();
   find_outlines();
-  find_ridges();
-  find_stars();
-  find_inside();
+  stage.begin("edges' faces");
+  find_ridges(request, stage);
+  stage.begin("corners' faces");
+  find_stars(request, stage);
+  stage.begin("corners in solids");
+  find_inside(request, stage);
   find_aligned();
 }
 
@@ -256,81 +263,12 @@ void Generators::find_blockers() {
   blocker_tree_ = Bvh(boxes, 1);
 }
 
-void Generators::find_inside() {
-  const Scene& s = *scene_;
-  inside_.assign(stars_.size(), 0);
-  for (std::size_t o = 0; o < s.objects().size(); ++o) {
-    const Object& object = s.objects()[o];
-    if (!object.closed) continue;
-    if (object.faces.empty()) continue;
-    const Box& box = object_boxes_[o];
-    double volume = 0;
-    if (!convex_[o]) {
-      const Point& origin = s.point(s.face_points(object.faces.front())[0]);
-      for (const int f : object.faces) {
-        const auto c = s.face_points(f);
-        for (std::size_t k = 1; k + 1 < c.size(); ++k) {
-          volume += (s.point(c[0]) - origin)
-                        .dot((s.point(c[k]) - origin).cross(s.point(c[k + 1]) - origin));
-        }
-      }
-      if (volume <= 0) continue;
-    }
-    for (std::size_t i = 0; i < stars_.size(); ++i) {
-      if (inside_[i]) continue;
-      const Point& p = s.point(stars_[i].point);
-      bool in_box = true;
-      for (int k = 0; k < 3; ++k)
-        in_box = in_box && p[k] > box.min[k] && p[k] < box.max[k];
-      if (!in_box) continue;
-      if (convex_[o]) {
-        inside_[i] = std::all_of(object.faces.begin(), object.faces.end(), [&](int f) {
-          return face_planes_[f](p) == Sign::Negative;
-        });
-      } else {
-        inside_[i] = 0;  // filled by parity below
-        // Crossings with a segment that leaves the box; a degenerate one is replaced.
-        const auto at = objects_at(stars_[i].point);
-        if (std::find(at.begin(), at.end(), static_cast<std::int32_t>(o)) != at.end())
-          continue;
-        const Point size{box.max[0] - box.min[0], box.max[1] - box.min[1],
-                         box.max[2] - box.min[2]};
-        for (int attempt = 1; attempt <= 16; ++attempt) {
-          const Point far =
-              p + Point{size[0] * (2 + 0.37 * attempt), size[1] * (1.1 + 0.61 * attempt),
-                        size[2] * (3 - 0.13 * attempt) * (attempt % 2 ? 1 : -1)};
-          int winding = 0;
-          bool degenerate = false;
-          for (const int f : object.faces) {
-            const Sign s0 = face_planes_[f](p);
-            const Sign s1 = face_planes_[f](far);
-            const auto c = s.face_points(f);
-            if (s0 == s1 && s0 != Sign::Zero) continue;
-            bool hit = true;
-            bool edge = false;
-            for (std::size_t k = 0; k < c.size() && hit; ++k) {
-              const Sign t =
-                  orient3d(s.point(c[k]), s.point(c[(k + 1) % c.size()]), p, far);
-              edge |= t == Sign::Zero;
-              const Sign inward = (s0 == Sign::Positive || s1 == Sign::Negative)
-                                      ? Sign::Negative
-                                      : Sign::Positive;
-              if (t != Sign::Zero && t != inward) hit = false;
-            }
-            if (!hit) continue;
-            if (edge || s0 == Sign::Zero || s1 == Sign::Zero) {
-              degenerate = true;
-              break;
-            }
-            winding += s0 == Sign::Negative ? 1 : -1;
-          }
-          if (degenerate) continue;
-          inside_[i] = winding > 0;
-          break;
-        }
-      }
-    }
-  }
+void Generators::find_inside(const Request& request, Stage& stage) {
+  const SolidIndex solids(*scene_);
+  inside_.resize(stars_.size());
+  for_each_of(0, stars_.size(), stars_.size(), request, stage, [&](std::size_t i) {
+    inside_[i] = solids.in_solid(scene_->point(stars_[i].point)) ? 1 : 0;
+  });
   for (const auto flag : inside_) inside_count_ += flag;
 }
 

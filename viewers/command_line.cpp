@@ -110,15 +110,16 @@ Progress::~Progress() {
   if (state_ && state_->shown) std::fputs("\r\033[K", stderr);
 }
 
-std::function<void(double)> Progress::callback() {
+std::function<void(std::string_view, double)> Progress::callback() {
   if (!state_) return {};
-  return [state = state_](double fraction) {
+  return [state = state_](std::string_view stage, double share) {
     const auto now = std::chrono::steady_clock::now();
     if (now - state->last < std::chrono::milliseconds(100)) return;
     state->last = now;
     state->shown = true;
-    std::fputs(fmt::format("\r{} {:3.0f} %", state->what, 100 * fraction).c_str(),
-               stderr);
+    std::fputs(
+        fmt::format("\r\033[K{}: {} {:3.0f} %", state->what, stage, 100 * share).c_str(),
+        stderr);
     std::fflush(stderr);
   };
 }

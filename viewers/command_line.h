@@ -65,7 +65,7 @@ class Progress {
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  [[nodiscard]] std::function<void(double)> callback();
+  [[nodiscard]] std::function<void(std::string_view stage, double share)> callback();
 
  private:
   struct State;

@@ -142,7 +142,9 @@ ExitStatus run_questions(const VisibleOptions& options) {
       answers.push_back(std::move(j));
       cost += answer.cost;
       ++counts[static_cast<int>(answer.verdict)];
-      if (tell) tell(static_cast<double>(i + 1) / static_cast<double>(questions.size()));
+      if (tell)
+        tell("questions",
+             static_cast<double>(i + 1) / static_cast<double>(questions.size()));
     }
   }
   const bool complete = counts[static_cast<int>(Verdict::Undecided)] == 0;
