@@ -98,6 +98,17 @@ void check(const SkeletonRequest& request) {
   }
 }
 
+// Of the parts whose set-up had no time: nothing is done, and of the whole scene it is
+// not known what will not be asked.
+void ask_for_all(const Scene& scene, const SkeletonRequest& request, Skeleton& skeleton) {
+  const auto ask = [](bool wanted, std::size_t count, std::size_t& asked) {
+    if (wanted && asked == 0) asked = count;
+  };
+  ask(request.ev, scene.corners().size(), skeleton.vertices_asked);
+  ask(request.eee, scene.edges().size(), skeleton.edges_asked);
+  ask(request.ff, scene.facets().size(), skeleton.facets_asked);
+}
+
 }  // namespace
 
 Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
@@ -127,6 +138,7 @@ Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
     skeleton.complete = false;
     skeleton.stopped_by =
         request.stop.stop_requested() ? StoppedBy::Request : StoppedBy::Seconds;
+    ask_for_all(scene, request, skeleton);
   }
   nodes.finish_ends();
   if (generators && request.ff) {

@@ -6,8 +6,8 @@
 #include <charconv>
 #include <iostream>
 
-#include "linespace/mesh_io.h"
 #include "linespace/perturb.h"
+#include "linespace/stage_internal.h"
 #include "viewers/command_line.h"
 #include "viewers/outputs.h"
 #include "viewers/selection.h"
@@ -23,7 +23,6 @@ struct SkeletonOptions : CommonOptions {
   std::vector<std::string> kinds{"EV", "EEE", "FF"};
   std::vector<std::string> between;
   std::string through;
-  double budget = std::numeric_limits<double>::infinity();
   std::size_t budget_bytes = std::numeric_limits<std::size_t>::max();
   std::vector<double> region;
   double perturb = 0;
@@ -101,7 +100,6 @@ SkeletonRequest request_of(const SkeletonOptions& options) {
   request.precision = options.precision;
   if (options.events == "polygon") request.events = EventMode::Polygon;
   request.threads = options.threads;
-  request.budget_seconds = options.budget;
   request.region = region_box(options.region);
   request.ev = std::ranges::find(options.kinds, "EV") != options.kinds.end();
   request.eee = std::ranges::find(options.kinds, "EEE") != options.kinds.end();
@@ -252,9 +250,7 @@ void print_events(const Json& events) {
 // Adds the answers to what is asked of the finished skeleton; false when the budget ended
 // first.
 bool answer_queries(const SkeletonOptions& options, const Scene& scene,
-                    const Skeleton& skeleton, Request request, Json& answer) {
-  Progress progress("far ends");
-  request.progress = progress.callback();
+                    const Skeleton& skeleton, const Request& request, Json& answer) {
   const EndIndex ends(scene, skeleton, request);
   if (!options.seen_from.empty()) {
     answer["seen_from"] = arcs_by_ends_json(scene, skeleton, ends,
@@ -266,7 +262,7 @@ bool answer_queries(const SkeletonOptions& options, const Scene& scene,
         between_ends(scene, ends, {options.between_ends[0], options.between_ends[1]}));
   }
   if (options.crossed.size() == 2) {
-    const ViewEvents events(scene, skeleton, ends);
+    const ViewEvents events(scene, skeleton, ends, request);
     const Point a = point_of(options.crossed[0]);
     const Point b = point_of(options.crossed[1]);
     answer["crossed"] = events_json(scene, skeleton, events.crossed(a, b));
@@ -294,43 +290,90 @@ Skeleton saved_skeleton(const std::string& file, const Scene& scene) {
   return std::move(stored.skeleton);
 }
 
-Scene scene_of(const SkeletonOptions& options) {
-  Scene scene(read_mesh(options.scene));
-  return options.perturb > 0 ? Scene(perturbed(scene, options.perturb, options.seed))
-                             : scene;
+Scene scene_of(Session& session, const SkeletonOptions& options) {
+  Scene scene = read_scene(session, options.scene);
+  if (!(options.perturb > 0)) return scene;
+  return Scene(perturbed(scene, options.perturb, options.seed), {}, session.with_grace());
 }
 
-ExitStatus run(const SkeletonOptions& options) {
+// Writes the files that hold more than the answer: the saved skeleton, VTK files, the
+// list.
+void write_files(Session& session, const SkeletonOptions& options, const Scene& scene,
+                 const Skeleton& skeleton, Json& answer, Outputs& outputs,
+                 OutputFile* saved) {
+  if (saved != nullptr) {
+    session.write(options.output, [&](const Request& request) {
+      if (!write_skeleton_json(saved->stream(), answer, scene, skeleton, nullptr,
+                               request)) {
+        throw Stopped("saving", 1);
+      }
+      saved->commit();
+    });
+  }
+  std::optional<SkeletonLines> lines;
+  if (!options.vtk.empty()) {
+    session.write("VTK files", [&](const Request& request) {
+      std::vector<RuledStrip> strips;
+      if (options.extend) {
+        lines.emplace(scene, request);
+        internal::Stage stage(request, "extending arcs");
+        for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
+          stage.at(i, skeleton.arcs.size());
+          strips.push_back(ruled_strip(scene, *lines, skeleton, static_cast<int>(i), 9));
+        }
+      }
+      write_vtk(options.vtk, scene, {&skeleton, options.extend ? &strips : nullptr},
+                request);
+    });
+  }
+  answer["complete"] = answer["complete"].get<bool>() && session.unwritten().empty();
+  bool listed = false;
+  if (options.list && outputs.json() != nullptr) {
+    session.write("the list", [&](const Request& request) {
+      if (!lines) lines.emplace(scene, request);
+      listed = true;
+      const bool whole = write_skeleton_json(outputs.json()->stream(), answer, scene,
+                                             skeleton, &*lines, request);
+      outputs.json()->commit();
+      if (!whole) throw Stopped("the list", 1);
+    });
+  }
+  if (listed) return;
+  answer["complete"] = answer["complete"].get<bool>() && session.unwritten().empty();
+  outputs.write_answer(answer);
+}
+
+ExitStatus run(Session& session, const SkeletonOptions& options) {
   check(options);
-  const Interruption interruption;
   Outputs outputs(options);
   OutputFile* const output =
       options.output.empty() ? nullptr : &outputs.add("-o", options.output);
   outputs.protect(options.saved);
   const Meter meter;
   const PrecisionScope precision(options.precision);
-  const Scene scene = scene_of(options);
+  const Scene scene = scene_of(session, options);
   const StageCounts loading = meter.predicates();
 
   SkeletonRequest request = request_of(options);
-  request.budget_seconds -= meter.seconds();
-  request.stop = interruption.token();
+  session.limit(request);
   Skeleton skeleton;
   if (!options.saved.empty()) {
     skeleton = saved_skeleton(options.saved, scene);
   } else {
-    Progress progress("skeleton");
-    request.progress = progress.callback();
     skeleton = build_selected(scene, request, selection_of(options));
   }
   bool complete = skeleton.complete;
   Json queries;
   if (options.asks()) {
-    request.budget_seconds = options.budget - meter.seconds();
-    complete = answer_queries(options, scene, skeleton, request, queries) && complete;
+    try {
+      complete = answer_queries(options, scene, skeleton, session.limited(), queries) &&
+                 complete;
+    } catch (const Stopped&) {  // what was asked first may be answered
+      complete = false;
+    }
   }
   Json answer = answer_head("skeleton", scene, complete,
-                            {meter.seconds(), loading + skeleton.predicates});
+                            {session.seconds(), loading + skeleton.predicates});
   answer["options"] = options_json(options);
   answer["nodes"] = node_counts(skeleton);
   answer["arcs"] = arc_counts(skeleton);
@@ -348,32 +391,12 @@ ExitStatus run(const SkeletonOptions& options) {
   }
   answer["simplified"] = simplified_json(scene, skeleton.simplified, options.list);
 
-  std::optional<SkeletonLines> lines;
-  if (options.list || options.extend) lines.emplace(scene);
-  if (output != nullptr) {
-    write_skeleton_json(output->stream(), answer, scene, skeleton, nullptr);
-    output->commit();
-  }
-  if (!options.vtk.empty()) {
-    std::vector<RuledStrip> strips;
-    if (options.extend) {
-      for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
-        strips.push_back(ruled_strip(scene, *lines, skeleton, static_cast<int>(i), 9));
-      }
-    }
-    write_vtk(options.vtk, scene, {&skeleton, options.extend ? &strips : nullptr});
-  }
-  if (options.list && outputs.json() != nullptr) {
-    write_skeleton_json(outputs.json()->stream(), answer, scene, skeleton, &*lines);
-    outputs.json()->commit();
-  } else {
-    outputs.write_answer(answer);
-  }
+  write_files(session, options, scene, skeleton, answer, outputs, output);
   if (options.may_print()) {
     print_summary(scene, skeleton, answer);
     print_queries(answer);
   }
-  return complete ? kAnswered : kPartial;
+  return session.end(complete);
 }
 
 }  // namespace
@@ -454,7 +477,6 @@ Command add_skeleton_command(CLI::App& app) {
                    "shorter stretch; what is left out is reported (default 0: nothing)")
       ->type_name("L")
       ->check(number_from_zero());
-  add_budget_option(*command, options->budget);
   add_size_budget_option(*command, options->budget_bytes);
   command->add_flag("--list", options->list,
                     "add every node and arc to the JSON answer: generators, line, "
@@ -491,7 +513,7 @@ Command add_skeleton_command(CLI::App& app) {
       ->type_name("X,Y,Z X,Y,Z")
       ->expected(2);
   add_common_options(*command, *options);
-  return [options] { return run(*options); };
+  return command_of(options, run);
 }
 
 }  // namespace sightline::viewers

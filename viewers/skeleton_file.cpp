@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "linespace/stage_internal.h"
 #include "viewers/drawing.h"
 #include "viewers/eee_surface.h"
 #include "viewers/far_ends.h"
@@ -177,36 +178,94 @@ StoredSkeleton skeleton_from(const Json& j) {
 
 }  // namespace
 
-void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
-                         const Skeleton& skeleton, const SkeletonLines* lines) {
-  std::string text = head.dump(1);
+namespace {
+
+// The elements of the list, one at a time.
+class ListWriter {
+ public:
+  ListWriter(std::ostream& stream, const Scene& scene, const Skeleton& skeleton,
+             const SkeletonLines* lines)
+      : stream_(stream), scene_(scene), skeleton_(skeleton), lines_(lines) {}
+
+  void nodes(internal::Stage& stage) {
+    for (std::size_t i = 0; i < skeleton_.nodes.size(); ++i) {
+      tell(stage, i, skeleton_.nodes.size());
+      Json node = node_json(scene_, skeleton_, i);
+      if (lines_ != nullptr) {
+        add_far_ends(node, scene_,
+                     far_ends(scene_, *lines_, skeleton_, skeleton_.nodes[i]));
+      }
+      add(node);
+    }
+  }
+  void arcs(internal::Stage& stage) {
+    const std::size_t ev = skeleton_.arcs.size();
+    const std::size_t count = ev + skeleton_.eee_arcs.size();
+    for (std::size_t i = 0; i < ev; ++i) {
+      tell(stage, i, count);
+      Json arc = arc_json(scene_, skeleton_, i);
+      if (lines_ != nullptr) add_line(arc, scene_, *lines_, skeleton_.arcs[i]);
+      add(arc);
+    }
+    for (std::size_t i = 0; i < skeleton_.eee_arcs.size(); ++i) {
+      tell(stage, ev + i, count);
+      Json arc = eee_arc_json(scene_, skeleton_, i);
+      if (lines_ != nullptr) add_line(arc, scene_, *lines_, skeleton_.eee_arcs[i]);
+      add(arc);
+    }
+  }
+  void begin_array() { separator_ = "\n   "; }
+
+ private:
+  void add(const Json& element) {
+    stream_ << separator_ << element.dump();
+    separator_ = ",\n   ";
+  }
+  // With lines an element may take milliseconds.
+  void tell(internal::Stage& stage, std::size_t i, std::size_t count) const {
+    if (lines_ != nullptr) {
+      stage.check(static_cast<double>(i) / static_cast<double>(count));
+    } else {
+      stage.at(i, count);
+    }
+  }
+
+  std::ostream& stream_;
+  const Scene& scene_;
+  const Skeleton& skeleton_;
+  const SkeletonLines* lines_;
+  const char* separator_ = "";
+};
+
+}  // namespace
+
+bool write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
+                         const Skeleton& skeleton, const SkeletonLines* lines,
+                         const Request& request) {
+  // Whether all is complete is known at the end.
+  Json keys = head;
+  keys.erase("complete");
+  std::string text = keys.dump(1);
   text.erase(text.rfind('}'));  // leave the object open
   text.erase(text.find_last_not_of("\n ") + 1);
   stream << text << ",\n \"list\": {\n  \"nodes\": [";
-  for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
-    Json node = node_json(scene, skeleton, i);
-    if (lines != nullptr) {
-      add_far_ends(node, scene, far_ends(scene, *lines, skeleton, skeleton.nodes[i]));
+  ListWriter list(stream, scene, skeleton, lines);
+  bool whole = true;
+  const auto write = [&](const char* name, auto elements) {
+    list.begin_array();
+    try {
+      internal::Stage stage(request, name);
+      (list.*elements)(stage);
+    } catch (const Stopped&) {
+      whole = false;
     }
-    stream << (i == 0 ? "\n   " : ",\n   ") << node.dump();
-  }
-  stream << "\n  ],\n  \"arcs\": [";
-  const char* separator = "\n   ";
-  const auto add_arc = [&](const Json& arc) {
-    stream << separator << arc.dump();
-    separator = ",\n   ";
   };
-  for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
-    Json arc = arc_json(scene, skeleton, i);
-    if (lines != nullptr) add_line(arc, scene, *lines, skeleton.arcs[i]);
-    add_arc(arc);
-  }
-  for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
-    Json arc = eee_arc_json(scene, skeleton, i);
-    if (lines != nullptr) add_line(arc, scene, *lines, skeleton.eee_arcs[i]);
-    add_arc(arc);
-  }
-  stream << "\n  ]\n }\n}\n";
+  write("listing nodes", &ListWriter::nodes);
+  stream << "\n  ],\n  \"arcs\": [";
+  write("listing arcs", &ListWriter::arcs);
+  stream << "\n  ]\n },\n \"complete\": "
+         << (whole && head.at("complete").get<bool>() ? "true" : "false") << "\n}\n";
+  return whole;
 }
 
 StoredSkeleton read_skeleton_json(const std::string& path) {

@@ -16,8 +16,12 @@ namespace sightline::viewers {
 /// element also has its "contacts" in order and its "free_segment" (null where
 /// SkeletonLines gives none, and then without contacts), an arc also the "line" at the
 /// middle of its range and its "pieces".
-void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
-                         const Skeleton& skeleton, const SkeletonLines* lines);
+///
+/// Of the request, stop, budget and progress count.  False where these ended the list
+/// before its end: what is written is JSON all the same, with "complete": false.
+bool write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
+                         const Skeleton& skeleton, const SkeletonLines* lines,
+                         const Request& request = {});
 
 /// A skeleton read back, with the name of the scene it was made from.
 struct StoredSkeleton {

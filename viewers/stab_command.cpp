@@ -143,7 +143,7 @@ std::vector<LineBlock::Polygon> drawn(const StabbingSwath& swath) {
 }
 
 void write_pictures(const StabOptions& options, const Question& question,
-                    const PortalSequence& sequence) {
+                    const PortalSequence& sequence, const Request& request) {
   std::vector<LineBlock> blocks;
   LineBlock portals{"portals", "portal", {}};
   LineBlock slits{"slits", "portal", {}};
@@ -172,7 +172,7 @@ void write_pictures(const StabOptions& options, const Question& question,
   }
   blocks.push_back(std::move(ev));
   blocks.push_back(std::move(eee));
-  write_vtk_lines(options.vtk, blocks);
+  write_vtk_lines(options.vtk, blocks, request);
 }
 
 void print_summary(const StabOptions& options, const Json& answer) {
@@ -189,32 +189,33 @@ void print_summary(const StabOptions& options, const Json& answer) {
   std::cout << fmt::format("  {:.3f} s\n", answer["seconds"].get<double>());
 }
 
-Json head(const Question& question, const Meter& meter) {
+Json head(Session& session, const Question& question, const Meter& meter) {
   std::size_t corners = 0;
   for (const auto& p : question.portals) corners += p.size();
   return answer_head("stab",
                      Json{{"portals", question.portals.size()}, {"corners", corners}},
-                     true, {meter.seconds(), meter.predicates()});
+                     true, {session.seconds(), meter.predicates()});
 }
 
-ExitStatus run_conservative(const StabOptions& options, Outputs& outputs,
-                            const Question& question, const Meter& meter) {
+ExitStatus run_conservative(Session& session, const StabOptions& options,
+                            Outputs& outputs, const Question& question,
+                            const Meter& meter) {
   SeparatingPlanesSequence sequence;
   for (std::size_t i = 0; i < question.portals.size(); ++i) push(sequence, question, i);
-  Json answer = head(question, meter);
+  Json answer = head(session, question, meter);
   answer["method"] = "conservative";
   answer["stabbable"] = sequence.maybe_stabbable();
   outputs.write_answer(answer);
   if (options.may_print()) print_summary(options, answer);
-  return kAnswered;
+  return session.end(true);
 }
 
-ExitStatus run(const StabOptions& options) {
+ExitStatus run(Session& session, const StabOptions& options) {
   Outputs outputs(options);
   const Meter meter;
   const Question question = read_question(options.scene);
   if (options.method == "conservative") {
-    return run_conservative(options, outputs, question, meter);
+    return run_conservative(session, options, outputs, question, meter);
   }
   PortalSequence sequence;
   Json pushes = Json::array();
@@ -236,12 +237,17 @@ ExitStatus run(const StabOptions& options) {
   found["out_of_plane"] = sequence.out_of_plane();
   found["pushes"] = std::move(pushes);
   if (options.list) found["list"] = list_json(sequence);
-  Json answer = head(question, meter);
+  Json answer = head(session, question, meter);
   answer.update(found);
-  if (!options.vtk.empty()) write_pictures(options, question, sequence);
+  if (!options.vtk.empty()) {
+    session.write("VTK files", [&](const Request& request) {
+      write_pictures(options, question, sequence, request);
+    });
+  }
+  answer["complete"] = session.unwritten().empty();
   outputs.write_answer(answer);
   if (options.may_print()) print_summary(options, answer);
-  return kAnswered;
+  return session.end(true);
 }
 
 }  // namespace
@@ -271,7 +277,7 @@ Command add_stab_command(CLI::App& app) {
       ->check(whole_number(2, 10000))
       ->capture_default_str();
   add_common_options(*command, *options);
-  return [options] { return run(*options); };
+  return command_of(options, run);
 }
 
 }  // namespace sightline::viewers
