@@ -64,14 +64,17 @@ bool FacePairs::crosses(int facet, const PlaneSide& plane) const {
   return false;
 }
 
-void FacePairs::visit(int f, std::vector<FoundFacePair>& out) {
+void FacePairs::visit(int f, const std::function<bool()>& stop,
+                      std::vector<FoundFacePair>& out) {
   if (!scene_.facets()[f].planar) return;
   const auto [a, b, c] = plane_points(scene_, scene_.facets()[f].faces[0]);
   const Point& origin = scene_.point(a);
   const BoundedPlane bounded = plane_from(origin, scene_.point(b), scene_.point(c));
   const PlaneSide& plane = plane_of(g_, f);
+  bool stopped = false;
   facets_.traverse(
       [&](const Box& box) {
+        if (stopped) return false;
         const CentredBox at = centred(box);
         const std::array<double, 3> from_origin{
             at.centre[0] - origin[0], at.centre[1] - origin[1], at.centre[2] - origin[2]};
@@ -80,8 +83,10 @@ void FacePairs::visit(int f, std::vector<FoundFacePair>& out) {
       },
       [&](std::uint32_t item) {
         const int g = static_cast<int>(item);
-        if (g <= f || !part_.has(f, g) || !scene_.facets()[g].planar) return;
-        if (crosses(g, plane) && crosses(f, plane_of(g_, g))) visit_pair(f, g, out);
+        if (stopped || g <= f || !part_.has(f, g) || !scene_.facets()[g].planar) return;
+        if (!crosses(g, plane) || !crosses(f, plane_of(g_, g))) return;
+        stopped = stop();
+        if (!stopped) visit_pair(f, g, out);
       });
 }
 
@@ -279,7 +284,8 @@ void add_face_pairs(const Generators& generators, const SkeletonRequest& request
       [&] { return std::make_unique<FacePairs>(generators, tree, part); },
       [&](FacePairs& pairs, std::size_t i) {
         std::vector<FoundFacePair> found;
-        pairs.visit(firsts[i], found);
+        pairs.visit(
+            firsts[i], [&] { return must_stop(request, start); }, found);
         std::ranges::sort(found, {}, [](const FoundFacePair& x) {
           return std::pair(x.contacts.generators, x.segment[0][0]);
         });

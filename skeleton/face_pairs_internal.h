@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "linespace/rational_internal.h"
@@ -35,8 +36,9 @@ class FacePairs {
   /// Keeps references; `facets` is a tree over the boxes of all facets.
   FacePairs(const Generators& generators, const Bvh& facets, const FacetPart& part);
 
-  /// Appends the nodes of facet f with all facets of higher number.
-  void visit(int f, std::vector<FoundFacePair>& out);
+  /// Appends the nodes of facet f with all facets of higher number; breaks off once
+  /// stop() is true.
+  void visit(int f, const std::function<bool()>& stop, std::vector<FoundFacePair>& out);
 
  private:
   struct Interval {
