@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "linespace/face_visibility.h"
@@ -48,6 +49,13 @@ Json witness_json(const VisibilityAnswer& answer) {
       {position_json((*answer.witness)[0]), position_json((*answer.witness)[1])});
 }
 
+// Undecided: where the search was given up first.
+void add_opening(Json& j, const VisibilityAnswer& answer) {
+  if (answer.verdict != Verdict::Undecided) return;
+  j["occluders"] = answer.occluders;
+  j["width"] = std::isfinite(answer.width) ? Json(answer.width) : Json(nullptr);
+}
+
 Json verdict_json(Verdict verdict) {
   switch (verdict) {
     case Verdict::Visible:
@@ -64,7 +72,8 @@ Json cost_json(const VisibilityCost& cost) {
           {"cells", cost.cells},
           {"games", cost.games},
           {"exact_games", cost.exact_games},
-          {"halvings", cost.halvings}};
+          {"halvings", cost.halvings},
+          {"exact_cells", cost.exact_cells}};
 }
 
 VisibilityRequest request_of(const VisibleOptions& options, const Meter& meter,
@@ -135,6 +144,7 @@ ExitStatus run_questions(const VisibleOptions& options) {
       Json j{{"visible", verdict_json(answer.verdict)},
              {"witness", witness_json(answer)},
              {"milliseconds", milliseconds}};
+      add_opening(j, answer);
       if (options.check && answer.cover) j["cover"] = checked_json(questions[i], answer);
       j["cost"] = cost_json(answer.cost);
       answers.push_back(std::move(j));
