@@ -101,6 +101,7 @@ void SceneBuilder::run() {
   number_points();
   index_faces();
   make_objects();
+  find_copies();
   check_duplicates();
   collect_half_edges();
   classify_edges();

@@ -70,12 +70,15 @@ struct Face {
   int source;  ///< number of the polygon in the file
   int facet;
   int object;
+  /// Lists a face of its object once more: that face, else -1.  A copy blocks and is seen
+  /// like any face; it adds no edge, and its object is closed or not without it.
+  int copy_of = -1;
 };
 
 /// A maximal connected region of one object's faces across flat edges.
 struct Facet {
   int object;
-  std::vector<int> faces;
+  std::vector<int> faces;  ///< without copies
   /// True when all its points lie in one plane exactly.
   bool planar;
 };
@@ -100,7 +103,7 @@ struct Edge {
 struct Object {
   std::string name;
   std::vector<int> faces;
-  /// Every edge is used equally often in both directions.
+  /// Every edge is used equally often in both directions, copies of faces left out.
   bool closed;
   /// Closed, bounded on the inside (positive volume), all its edges convex or flat, and
   /// every point on or behind every face's plane.

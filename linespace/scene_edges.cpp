@@ -76,11 +76,11 @@ std::string edge_name(const Scene& scene, const HalfEdge& e) {
 }  // namespace
 
 void SceneBuilder::collect_half_edges() {
-  const std::size_t n = scene.corners_.size();
   std::vector<int> starts(scene.points_.size() + 1, 0);
   const auto for_each_side = [&](auto&& visit) {
     for (std::size_t f = 0; f < scene.faces_.size(); ++f) {
       const Face& face = scene.faces_[f];
+      if (face.copy_of >= 0) continue;
       for (int i = 0; i < face.corner_count; ++i) {
         const int at = face.first_corner + i;
         const int to = scene.corners_[face.first_corner + (i + 1) % face.corner_count];
@@ -90,7 +90,7 @@ void SceneBuilder::collect_half_edges() {
   };
   for_each_side([&](int, int, int from, int to) { ++starts[std::min(from, to) + 1]; });
   std::partial_sum(starts.begin(), starts.end(), starts.begin());
-  half_edges.resize(n);
+  half_edges.resize(static_cast<std::size_t>(starts.back()));
   std::vector<int> next(starts.begin(), starts.end() - 1);
   for_each_side([&](int f, int at, int from, int to) {
     half_edges[next[std::min(from, to)]++] = {
@@ -207,6 +207,11 @@ void SceneBuilder::classify_edges() {
 
 void SceneBuilder::make_facets(DisjointSets& regions) {
   for (std::size_t f = 0; f < scene.faces_.size(); ++f) {
+    const int original = scene.faces_[f].copy_of;  // an earlier one
+    if (original >= 0) {
+      scene.faces_[f].facet = scene.faces_[original].facet;
+      continue;
+    }
     const int first = regions.find(static_cast<int>(f));
     Face& face = scene.faces_[f];
     if (first == static_cast<int>(f)) {
@@ -274,8 +279,8 @@ void SceneBuilder::join_edges() {
   for (std::size_t e = 0; e < mesh_edges.size(); ++e) {
     if (mesh_edges[e].kind != EdgeKind::Flat) candidates.push_back(static_cast<int>(e));
   }
-  // Around each point, the candidates by object; where two of one object meet, they may
-  // be one.
+  // Around each point, the candidates by object; two of one object may be one, whatever
+  // other edges end there.
   struct End {
     int point, object, edge;
   };
@@ -298,11 +303,16 @@ void SceneBuilder::join_edges() {
            ends[j].object == ends[i].object) {
       ++j;
     }
-    if (j == i + 2) {
-      const int p = ends[i].point, e = ends[i].edge, f = ends[i + 1].edge;
-      if (joiner.continues(e, f, p)) {
+    const int p = ends[i].point;
+    for (std::size_t k = i; k < j; ++k) {
+      const int e = ends[k].edge;
+      if (follower[e][joiner.high(e) == p] >= 0) continue;
+      for (std::size_t l = k + 1; l < j; ++l) {
+        const int f = ends[l].edge;
+        if (follower[f][joiner.high(f) == p] >= 0 || !joiner.continues(e, f, p)) continue;
         follower[e][joiner.high(e) == p] = f;
         follower[f][joiner.high(f) == p] = e;
+        break;
       }
     }
     i = j;
@@ -369,6 +379,20 @@ void SceneBuilder::join_edges() {
           scene.side_edges_[face.first_corner + k] = edge_of_chain[chain_of[e]];
         }
       }
+    }
+  }
+  for (std::size_t f = 0; f < scene.faces_.size(); ++f) {
+    const Face& copy = scene.faces_[f];
+    if (copy.copy_of < 0) continue;
+    const Face& face = scene.faces_[copy.copy_of];
+    int shift = 0;
+    while (scene.corners_[face.first_corner + shift] !=
+           scene.corners_[copy.first_corner]) {
+      ++shift;
+    }
+    for (int k = 0; k < copy.corner_count; ++k) {
+      scene.side_edges_[copy.first_corner + k] =
+          scene.side_edges_[face.first_corner + (k + shift) % face.corner_count];
     }
   }
   auto& starts = scene.edge_starts_;

@@ -107,6 +107,7 @@ struct SceneBuilder {
   void find_bounds();
 
   void make_objects();  // scene_objects.cpp
+  void find_copies();
   void describe_objects();
 
   void collect_half_edges();  // scene_edges.cpp

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 
 #include "linespace/predicates.h"
@@ -37,6 +38,7 @@ std::optional<int> exits(const Scene& scene, const Object& object, const Point& 
                          const Point& to) {
   int count = 0;
   for (const int f : object.faces) {
+    if (scene.faces()[f].copy_of >= 0) continue;
     const auto ids = scene.face_points(f);
     bool missed = false, touched = false;
     for (std::size_t i = 0; i < ids.size() && !missed; ++i) {
@@ -160,6 +162,55 @@ void SceneBuilder::make_objects() {
     for (const int f : faces[i]) scene.faces_[f].object = object;
     scene.object_names_.emplace(names[i], object);
     scene.objects_.push_back({std::move(names[i]), std::move(faces[i]), true, false});
+  }
+}
+
+// Faces of one object with the same corners in the same cyclic order: all but the first
+// are copies.
+void SceneBuilder::find_copies() {
+  struct Ring {
+    std::uint64_t hash;
+    int face;
+  };
+  const auto ring_from = [&](int f) {  // from its smallest point on
+    const auto ids = scene.face_points(f);
+    return std::min_element(ids.begin(), ids.end()) - ids.begin();
+  };
+  std::vector<Ring> rings;
+  rings.reserve(scene.faces_.size());
+  for (int f = 0; f < static_cast<int>(scene.faces_.size()); ++f) {
+    const auto ids = scene.face_points(f);
+    const auto n = ids.size();
+    const auto first = static_cast<std::size_t>(ring_from(f));
+    auto h = static_cast<std::uint64_t>(scene.faces_[f].object);
+    for (std::size_t k = 0; k < n; ++k) {
+      h = (h ^ static_cast<std::uint64_t>(ids[(first + k) % n])) * 0x9E3779B97F4A7C15u;
+      h ^= h >> 31;
+    }
+    rings.push_back({h, f});
+  }
+  std::sort(rings.begin(), rings.end(), [](const Ring& a, const Ring& b) {
+    return a.hash != b.hash ? a.hash < b.hash : a.face < b.face;
+  });
+  const auto same = [&](int f, int g) {
+    const auto a = scene.face_points(f);
+    const auto b = scene.face_points(g);
+    if (a.size() != b.size() || scene.faces_[f].object != scene.faces_[g].object) {
+      return false;
+    }
+    const auto i = static_cast<std::size_t>(ring_from(f));
+    const auto j = static_cast<std::size_t>(ring_from(g));
+    for (std::size_t k = 0; k < a.size(); ++k) {
+      if (a[(i + k) % a.size()] != b[(j + k) % b.size()]) return false;
+    }
+    return true;
+  };
+  for (std::size_t i = 0; i < rings.size(); ++i) {
+    const int f = rings[i].face;
+    if (scene.faces_[f].copy_of >= 0) continue;
+    for (std::size_t j = i + 1; j < rings.size() && rings[j].hash == rings[i].hash; ++j) {
+      if (same(f, rings[j].face)) scene.faces_[rings[j].face].copy_of = f;
+    }
   }
 }
 

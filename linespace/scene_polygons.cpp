@@ -329,6 +329,18 @@ PolygonPieces cut_into_pieces(std::span<const Point> vertices,
     }
     pieces.crossing = crosses_itself(projected.points);
   }
+  // From one and the same corner, wherever the file begins: of equally short diagonals
+  // the first is taken.
+  const auto smallest = std::min_element(
+      ring.begin(), ring.end(), [&](int a, int b) {
+        return std::lexicographical_compare(vertices[a].begin(), vertices[a].end(),
+                                            vertices[b].begin(), vertices[b].end());
+      });
+  if (smallest != ring.begin()) {
+    std::vector<int> turned(smallest, ring.end());
+    turned.insert(turned.end(), ring.begin(), smallest);
+    return cut_into_pieces(vertices, turned);
+  }
   EarClipper{points, projected, pieces, {}, {}, {}, {}, {}}.run();
   for (int& corner : pieces.corners) corner = ring[corner];
   if (pieces.sizes.empty()) pieces.zero_area = true;

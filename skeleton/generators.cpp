@@ -97,8 +97,8 @@ Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
   object_starts_.assign(scene.points().size() + 1, 0);
   for (std::size_t p = 0; p < scene.points().size(); ++p) {
     std::vector<std::int32_t> ids;
-    for (const int f : scene.faces_at(static_cast<int>(p)))
-      ids.push_back(scene.faces()[f].object);
+    for (const int e : scene.edges_at(static_cast<int>(p)))
+      ids.push_back(scene.edges()[e].object);
     sort_unique(ids);
     object_ids_.insert(object_ids_.end(), ids.begin(), ids.end());
     object_starts_[p + 1] = static_cast<std::int32_t>(object_ids_.size());
@@ -269,6 +269,7 @@ void Generators::find_inside() {
       const Point& origin = s.point(s.face_points(object.faces.front())[0]);
       for (const int f : object.faces) {
         const auto c = s.face_points(f);
+        if (s.faces()[f].copy_of >= 0) continue;
         for (std::size_t k = 1; k + 1 < c.size(); ++k) {
           volume += (s.point(c[0]) - origin)
                         .dot((s.point(c[k]) - origin).cross(s.point(c[k + 1]) - origin));
@@ -306,6 +307,7 @@ void Generators::find_inside() {
             const Sign s1 = face_planes_[f](far);
             const auto c = s.face_points(f);
             if (s0 == s1 && s0 != Sign::Zero) continue;
+            if (s.faces()[f].copy_of >= 0) continue;
             bool hit = true;
             bool edge = false;
             for (std::size_t k = 0; k < c.size() && hit; ++k) {

@@ -208,10 +208,7 @@ void Generators::find_ridges() {
         [&](std::uint32_t item) {
           const int f = static_cast<int>(item);
           if (!polygon() && touched == EdgeTouch::ContainsInside) return;
-          if (has_point(s, f, e.points[0]) && has_point(s, f, e.points[1])) {
-            const bool own = std::find(faces.begin(), faces.end(), f) != faces.end();
-            if (own || s.faces()[f].object == e.object) return;
-          }
+          if (s.faces()[f].copy_of >= 0) return;
           // Faces along a chain of mesh edges merged into this one are its own.
           for (const int own : faces) {
             if (s.faces()[own].facet == s.faces()[f].facet) return;
@@ -239,11 +236,10 @@ void Generators::find_ridges() {
         });
     is_foot = foot;
     is_touched = touched == EdgeTouch::Touches || foot;
-    if (covered && !foot) continue;
+    if (inside_faces && !foot) continue;
     const int edge = static_cast<int>(i);
     // Edges of several objects that coincide are one generator.
     if (join_ridge(edge, at)) continue;
-    if (inside_faces && !foot) continue;
     ridge_of_edge_[i] = static_cast<int>(ridges_.size());
     if (many && !is_touched) {
       add_gaps(edge, at, boxes);

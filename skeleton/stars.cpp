@@ -1,6 +1,7 @@
 // The faces around corners.
 
 #include <algorithm>
+#include <array>
 
 #include "skeleton/generators_internal.h"
 
@@ -17,6 +18,42 @@ bool same_direction(const Point& origin, const Point& p, const Point& q) {
   return false;
 }
 
+// The angle of a face at one of its corners, or all around a point of it that is none,
+// as wedges of less than half a turn: (far point, far point, facet).
+using Wedge = std::array<std::int32_t, 3>;
+void add_wedges(const Scene& s, int f, int p, std::vector<Wedge>& wedges) {
+  const Point& at = s.point(p);
+  const auto c = s.face_points(f);
+  const std::size_t n = c.size();
+  const int facet = s.faces()[f].facet;
+  const auto found = std::find(c.begin(), c.end(), p);
+  if (found == c.end()) {
+    const InPlaneSide left_of(s, f);
+    for (std::size_t k = 0; k < n; ++k) {
+      const int q = c[k];
+      const int r = c[(k + 1) % n];
+      if (left_of(s.point(q), s.point(r), at) != Sign::Zero)
+        wedges.push_back({q, r, facet});
+    }
+    return;
+  }
+  const auto k = static_cast<std::size_t>(found - c.begin());
+  const int next = c[(k + 1) % n];
+  const int previous = c[(k + n - 1) % n];
+  if (!collinear(at, s.point(next), s.point(previous))) {
+    wedges.push_back({next, previous, facet});
+    return;
+  }
+  // The point lies on a straight side of the polygon: half a plane.
+  for (std::size_t m = 2; m < n; ++m) {
+    const int third = c[(k + m) % n];
+    if (collinear(at, s.point(next), s.point(third))) continue;
+    wedges.push_back({next, third, facet});
+    wedges.push_back({third, previous, facet});
+    break;
+  }
+}
+
 }  // namespace
 
 void Generators::find_stars() {
@@ -24,92 +61,103 @@ void Generators::find_stars() {
   star_of_point_.assign(s.points().size(), -1);
   for (const int p : s.corners()) {
     star_of_point_[p] = static_cast<int>(stars_.size());
-    Star star;
-    star.point = p;
-    const Point& at = s.point(p);
-    const auto own = s.faces_at(p);
-    star.faces.assign(own.begin(), own.end());
-    std::vector<std::array<std::int32_t, 3>> wedges;  // far point, far point, facet
-    for (const int f : own) {
-      const auto c = s.face_points(f);
-      const std::size_t n = c.size();
-      const auto k =
-          static_cast<std::size_t>(std::find(c.begin(), c.end(), p) - c.begin());
-      const int next = c[(k + 1) % n];
-      const int previous = c[(k + n - 1) % n];
-      if (collinear(at, s.point(next), s.point(previous))) {
-        // The point lies on a straight side of the polygon: half a plane.
-        for (std::size_t m = 2; m < n; ++m) {
-          const int third = c[(k + m) % n];
-          if (collinear(at, s.point(next), s.point(third))) continue;
-          wedges.push_back({next, third, s.faces()[f].facet});
-          wedges.push_back({third, previous, s.faces()[f].facet});
-          break;
-        }
-      } else {
-        wedges.push_back({next, previous, s.faces()[f].facet});
-      }
-      star.facets.push_back(s.faces()[f].facet);
-    }
-    const Box box = box_of(std::array<Point, 1>{at});
-    face_tree_.traverse([&](const Box& other) { return boxes_meet(box, other); },
-                        [&](std::uint32_t item) {
-                          const int f = static_cast<int>(item);
-                          if (has_point(s, f, p) || face_planes_[f](at) != Sign::Zero)
-                            return;
-                          const PointInFace where = locate_in_plane(s, f, at);
-                          if (where == PointInFace::Outside) return;
-                          star.faces.push_back(f);
-                          star.touched = true;
-                          const auto c = s.face_points(f);
-                          const std::size_t n = c.size();
-                          const InPlaneSide left_of(s, f);
-                          if (where == PointInFace::Inside) {
-                            star.in_plane_only = true;
-                            star.planes.push_back(f);
-                          }
-                          for (std::size_t k = 0; k < n; ++k) {
-                            const Point& q = s.point(c[k]);
-                            const Point& r = s.point(c[(k + 1) % n]);
-                            if (left_of(q, r, at) == Sign::Zero) continue;
-                            wedges.push_back({c[k], c[(k + 1) % n], s.faces()[f].facet});
-                          }
-                        });
-    sort_unique(star.facets);
-    const auto ray = [&](std::int32_t far) {
-      for (std::size_t r = 0; r < star.rays.size(); ++r) {
-        if (star.rays[r] == far ||
-            same_direction(at, s.point(star.rays[r]), s.point(far))) {
-          return static_cast<std::int32_t>(r);
-        }
-      }
-      star.rays.push_back(far);
-      return static_cast<std::int32_t>(star.rays.size() - 1);
-    };
-    for (const auto& w : wedges) star.sectors.push_back({ray(w[0]), ray(w[1]), w[2]});
-
-    star.touched = star.touched || objects_at(p).size() > 1;
-    bool convex = !star.touched && s.objects()[s.faces()[own[0]].object].closed;
-    for (const int e : s.edges_at(p))
-      convex = convex && s.edges()[e].kind == EdgeKind::Convex;
-    // Locally convex along every edge and one fan: check it is one cone.
-    for (std::size_t k = 0; k < own.size() && convex; ++k) {
-      for (const auto& w : wedges) {
-        if (w[2] == s.faces()[own[k]].facet) continue;
-        for (int end = 0; end < 2 && convex; ++end) {
-          if (face_planes_[own[k]](s.point(w[end])) != Sign::Positive) continue;
-          // Rays shared with the facet itself may rise above another of its triangles.
-          convex = std::any_of(wedges.begin(), wedges.end(), [&](const auto& other) {
-            return other[2] == s.faces()[own[k]].facet &&
-                   (other[0] == w[end] || other[1] == w[end]);
-          });
-        }
-      }
-    }
-    star.convex = convex;
-    // Flat all around within its own object: no generator of transversal lines.
-    stars_.push_back(std::move(star));
+    stars_.push_back(star_of(p));
   }
+}
+
+// None of these faces of the facet, all that have the point, has it on a side that is an
+// edge.
+bool Generators::inside_facet(int point, int facet,
+                              std::span<const std::int32_t> faces) const {
+  const Scene& s = *scene_;
+  const Point& at = s.point(point);
+  for (const int f : faces) {
+    if (s.faces()[f].facet != facet) continue;
+    const auto c = s.face_points(f);
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      if (s.edge_of_side(f, static_cast<int>(k)) < 0) continue;
+      const int p = c[k];
+      const int q = c[(k + 1) % c.size()];
+      if (p == point || q == point || collinear(s.point(p), s.point(q), at)) return false;
+    }
+  }
+  return true;
+}
+
+Star Generators::star_of(int p) const {
+  const Scene& s = *scene_;
+  const Point& at = s.point(p);
+  Star star;
+  star.point = p;
+  for (const int e : s.edges_at(p)) {
+    for (const Edge::Side& side : s.edges()[e].sides) {
+      star.facets.push_back(s.faces()[side.face].facet);
+    }
+  }
+  sort_unique(star.facets);
+  const auto is_own = [&](int f) {
+    return std::binary_search(star.facets.begin(), star.facets.end(), s.faces()[f].facet);
+  };
+  // The faces at the point: whether it is one of their vertices does not matter.
+  for (const int f : s.faces_at(p)) {
+    if (s.faces()[f].copy_of < 0) star.faces.push_back(f);
+  }
+  const Box box = box_of(std::array<Point, 1>{at});
+  face_tree_.traverse([&](const Box& other) { return boxes_meet(box, other); },
+                      [&](std::uint32_t item) {
+                        const int f = static_cast<int>(item);
+                        if (s.faces()[f].copy_of >= 0 || has_point(s, f, p)) return;
+                        if (face_planes_[f](at) != Sign::Zero) return;
+                        if (locate_in_plane(s, f, at) != PointInFace::Outside)
+                          star.faces.push_back(f);
+                      });
+  std::vector<Wedge> wedges;
+  for (const int f : star.faces) add_wedges(s, f, p, wedges);
+  std::vector<std::int32_t> foreign;
+  for (const int f : star.faces) {
+    if (!is_own(f)) foreign.push_back(s.faces()[f].facet);
+  }
+  sort_unique(foreign);
+  for (const int facet : foreign) {
+    if (!inside_facet(p, facet, star.faces)) continue;
+    star.in_plane_only = true;
+    star.planes.push_back(*std::find_if(
+        star.faces.begin(), star.faces.end(),
+        [&](std::int32_t f) { return s.faces()[f].facet == facet; }));
+  }
+  const auto ray = [&](std::int32_t far) {
+    for (std::size_t r = 0; r < star.rays.size(); ++r) {
+      if (star.rays[r] == far ||
+          same_direction(at, s.point(star.rays[r]), s.point(far))) {
+        return static_cast<std::int32_t>(r);
+      }
+    }
+    star.rays.push_back(far);
+    return static_cast<std::int32_t>(star.rays.size() - 1);
+  };
+  for (const auto& w : wedges) star.sectors.push_back({ray(w[0]), ray(w[1]), w[2]});
+
+  star.touched = !foreign.empty() || objects_at(p).size() > 1;
+  bool convex = !star.touched && s.objects()[s.faces()[star.faces[0]].object].closed;
+  for (const int e : s.edges_at(p))
+    convex = convex && s.edges()[e].kind == EdgeKind::Convex;
+  // Locally convex along every edge and one fan: check it is one cone.
+  for (const int f : star.faces) {
+    if (!convex) break;
+    for (const auto& w : wedges) {
+      if (w[2] == s.faces()[f].facet) continue;
+      for (int end = 0; end < 2 && convex; ++end) {
+        if (face_planes_[f](s.point(w[end])) != Sign::Positive) continue;
+        // Rays shared with the facet itself may rise above another of its triangles.
+        convex = std::any_of(wedges.begin(), wedges.end(), [&](const auto& other) {
+          return other[2] == s.faces()[f].facet &&
+                 (other[0] == w[end] || other[1] == w[end]);
+        });
+      }
+    }
+  }
+  star.convex = convex;
+  return star;
 }
 
 }  // namespace sightline::internal
