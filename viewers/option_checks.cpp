@@ -50,8 +50,10 @@ CLI::Validator finite(const std::string& what, std::function<bool(double)> accep
 std::vector<std::string> names_of(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back(fmt::format("--{}", name));
-    for (const std::string& name : option->get_snames()) names.push_back(fmt::format("-{}", name));
+    for (const std::string& name : option->get_lnames())
+      names.push_back(fmt::format("--{}", name));
+    for (const std::string& name : option->get_snames())
+      names.push_back(fmt::format("-{}", name));
   }
   return names;
 }

@@ -152,7 +152,8 @@ vtkSmartPointer<vtkPolyData> scene_cells(const Scene& scene) {
   vtkSmartPointer<vtkPolyData> data = cells.poly_data();
   vtkNew<vtkStringArray> names;
   names->SetName("object_names");
-  for (const Object& object : scene.objects()) names->InsertNextValue(escaped_bytes(object.name));
+  for (const Object& object : scene.objects())
+    names->InsertNextValue(escaped_bytes(object.name));
   data->GetFieldData()->AddArray(names);
   return data;
 }
