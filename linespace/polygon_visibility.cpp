@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "linespace/exact_position_internal.h"
 #include "linespace/occluder_source_internal.h"
 #include "linespace/polygon_visibility_internal.h"
 #include "linespace/scene_internal.h"
@@ -78,16 +79,6 @@ bool may_touch(const ExactPoint& p, const ExactPoint& q,
     if ((q[i] - p[i]) * (u[j] - p[j]) != (q[j] - p[j]) * (u[i] - p[i])) return false;
   }
   return true;
-}
-
-ExactPosition position(const ExactPoint& p) {
-  ExactPosition out;
-  for (int axis = 0; axis < 3; ++axis) {
-    out.nearest[axis] = static_cast<double>(p[axis]);
-    out.exact[axis] = p[axis].str();
-    out.is_double[axis] = Rational(out.nearest[axis]) == p[axis];
-  }
-  return out;
 }
 
 }  // namespace
@@ -229,8 +220,8 @@ VisibilityAnswer decide(std::span<const Triangle> a, std::span<const Triangle> b
       answer.cost += result.counts;
       if (result.outcome == SearchOutcome::Free) {
         answer.verdict = Verdict::Visible;
-        answer.witness = {position(exact_mean(from, result.segment->alpha)),
-                          position(exact_mean(to, result.segment->beta))};
+        answer.witness = {exact_position(exact_mean(from, result.segment->alpha)),
+                          exact_position(exact_mean(to, result.segment->beta))};
         return answer;
       }
       undecided |= result.outcome == SearchOutcome::Undecided;

@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "linespace/exact_position.h"
 #include "linespace/predicates.h"
 #include "linespace/request.h"
 #include "linespace/scene.h"
@@ -39,14 +40,6 @@ enum class Verdict : std::uint8_t {
   /// Given up: stopped, over budget, or an opening, if there is one, is narrower than
   /// 2^-50 of a and b.
   Undecided
-};
-
-/// A point that may need more digits than a double has.
-struct ExactPosition {
-  Point nearest;  ///< rounded
-  /// "x" or "p/q" in decimal: exactly the coordinates.
-  std::array<std::string, 3> exact;
-  std::array<bool, 3> is_double;  ///< per axis: `nearest` is exact
 };
 
 struct VisibilityRequest : Request {

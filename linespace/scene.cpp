@@ -103,6 +103,7 @@ void SceneBuilder::run() {
   make_objects();
   check_duplicates();
   collect_half_edges();
+  turn_shells();
   classify_edges();
   join_edges();
   describe_objects();

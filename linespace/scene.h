@@ -60,8 +60,9 @@ struct PolygonSoup {
 enum class EdgeKind : std::uint8_t { Convex, Reflex, Flat, Boundary, NonManifold };
 
 /// A convex polygon, exactly planar, with its front on the side where it is
-/// counter-clockwise.  Its first three corners are never collinear, so that they give its
-/// plane; further corners may lie on a side (angle of 180 degrees).  A polygon of the
+/// counter-clockwise: outside, for a closed object, also one that the file lists inside
+/// out (Scene::turned).  Its first three corners are never collinear, so that they give
+/// its plane; further corners may lie on a side (angle of 180 degrees).  A polygon of the
 /// file that is not convex or not exactly planar becomes several triangles of one
 /// `source`.
 struct Face {
@@ -102,9 +103,12 @@ struct Object {
   std::vector<int> faces;
   /// Every edge is used equally often in both directions.
   bool closed;
-  /// Closed, bounded on the inside (positive volume), all its edges convex or flat, and
-  /// every point on or behind every face's plane.
+  /// Closed, bounded on the inside (positive volume; one inside out is turned first), all
+  /// its edges convex or flat, and every point on or behind every face's plane.
   bool convex;
+  /// Closed, and the file lists some closed part of it (a shell) clockwise seen from
+  /// outside: a room, with air inside.
+  bool inside_out = false;
 };
 
 struct SceneOptions {
@@ -112,7 +116,8 @@ struct SceneOptions {
   double flatness = 0;
 };
 
-/// Counts of the mesh's own edges, collinear ones not merged, by kind.
+/// Counts of the mesh's own edges, collinear ones not merged, by kind, with the fronts of
+/// the file: a ridge of an object turned inside out counts as reflex.
 struct MeshEdgeCounts {
   int convex = 0, reflex = 0, flat = 0, boundary = 0, nonmanifold = 0;
 };
@@ -136,6 +141,17 @@ class Scene {
     return {corners_.data() + faces_[f].first_corner,
             static_cast<std::size_t>(faces_[f].corner_count)};
   }
+  /// The file lists the face the other way round: its shell is turned inside out.
+  [[nodiscard]] bool turned(int f) const { return sides_[f] == FaceSides::Turned; }
+  /// Behind the face is the inside of its closed object; false for sheets, and for shells
+  /// turned inside out, whose inside is air.
+  [[nodiscard]] bool solid_behind(int f) const { return sides_[f] == FaceSides::Solid; }
+  /// An object turned inside out, and one in whose material it lies: the inner shell of a
+  /// house, which is as it should be.  Not marked `inside_out`; its faces are not turned.
+  struct Hollow {
+    int object, around;
+  };
+  [[nodiscard]] std::span<const Hollow> hollows() const { return hollows_; }
   [[nodiscard]] std::span<const Facet> facets() const { return facets_; }
   /// The generators: maximal straight edges, flat ones left out.
   [[nodiscard]] std::span<const Edge> edges() const { return edges_; }
@@ -192,6 +208,9 @@ class Scene {
   MeshEdgeCounts mesh_edges_;
   int solids_ = 0;
   std::array<Point, 2> bounds_;
+  enum class FaceSides : std::uint8_t { Sheet, Solid, Turned };
+  std::vector<FaceSides> sides_;  // of faces
+  std::vector<Hollow> hollows_;
 };
 
 /// Pairs of faces of one object that meet in more than the corners and edges they share:

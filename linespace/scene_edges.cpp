@@ -186,8 +186,9 @@ void SceneBuilder::classify_edges() {
   }
   for (const MeshEdge& e : mesh_edges) {
     MeshEdgeCounts& counts = scene.mesh_edges_;
-    ++(e.kind == EdgeKind::Convex     ? counts.convex
-       : e.kind == EdgeKind::Reflex   ? counts.reflex
+    const bool turned = scene.turned(half_edges[e.first].face);
+    ++(e.kind == EdgeKind::Convex     ? (turned ? counts.reflex : counts.convex)
+       : e.kind == EdgeKind::Reflex   ? (turned ? counts.convex : counts.reflex)
        : e.kind == EdgeKind::Flat     ? counts.flat
        : e.kind == EdgeKind::Boundary ? counts.boundary
                                       : counts.nonmanifold);

@@ -109,6 +109,10 @@ struct SceneBuilder {
   void make_objects();  // scene_objects.cpp
   void describe_objects();
 
+  void turn_shells();  // scene_shells.cpp
+  void turn_face(int face);
+  void report_inside_out(const std::vector<int>& shell, bool is_part, int around);
+
   void collect_half_edges();  // scene_edges.cpp
   void classify_edges();
   void make_facets(DisjointSets& regions);

@@ -44,7 +44,7 @@ EdgeFan::EdgeFan(const Generators& generators, const Point& e0, const Point& e1)
 void EdgeFan::add_half(int face, std::int32_t third, bool own) {
   const Face& f = scene_.faces()[face];
   Leaf leaf{third, f.facet, false, false, own};
-  if (scene_.objects()[f.object].closed) {
+  if (g_.solid_behind(face)) {
     const Point w = off_plane(e0_, e1_, scene_.point(third));
     const bool after = orient3d(e0_, e1_, scene_.point(third), w) == Sign::Positive;
     const bool behind = g_.face_plane(face)(w) == Sign::Negative;

@@ -5,6 +5,7 @@
 
 #include "linespace/transversals_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/rooms_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -103,8 +104,9 @@ Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
     object_ids_.insert(object_ids_.end(), ids.begin(), ids.end());
     object_starts_[p + 1] = static_cast<std::int32_t>(object_ids_.size());
   }
-  find_convex_solids();
   find_object_boxes();
+  find_convex_solids();
+  find_rooms();
   find_blockers();
   find_outlines();
   find_ridges();
@@ -145,6 +147,18 @@ void Generators::find_convex_solids() {
       }
     }
     convex_[o] = ok;
+  }
+}
+
+void Generators::find_rooms() {
+  const auto objects = scene_->objects();
+  for (const Scene::Hollow& hollow : scene_->hollows()) convex_[hollow.around] = 0;
+  empty_room_.assign(objects.size(), 0);
+  const auto is_room = [](const Object& object) { return object.inside_out; };
+  if (std::none_of(objects.begin(), objects.end(), is_room)) return;
+  empty_room_ = empty_rooms({*scene_, face_planes_, face_tree_, object_boxes_, convex_});
+  for (std::size_t o = 0; o < objects.size(); ++o) {
+    if (is_room(objects[o]) && empty_room_[o] == 0) convex_[o] = 0;
   }
 }
 
@@ -257,79 +271,9 @@ void Generators::find_blockers() {
 }
 
 void Generators::find_inside() {
-  const Scene& s = *scene_;
-  inside_.assign(stars_.size(), 0);
-  for (std::size_t o = 0; o < s.objects().size(); ++o) {
-    const Object& object = s.objects()[o];
-    if (!object.closed) continue;
-    if (object.faces.empty()) continue;
-    const Box& box = object_boxes_[o];
-    double volume = 0;
-    if (!convex_[o]) {
-      const Point& origin = s.point(s.face_points(object.faces.front())[0]);
-      for (const int f : object.faces) {
-        const auto c = s.face_points(f);
-        for (std::size_t k = 1; k + 1 < c.size(); ++k) {
-          volume += (s.point(c[0]) - origin)
-                        .dot((s.point(c[k]) - origin).cross(s.point(c[k + 1]) - origin));
-        }
-      }
-      if (volume <= 0) continue;
-    }
-    for (std::size_t i = 0; i < stars_.size(); ++i) {
-      if (inside_[i]) continue;
-      const Point& p = s.point(stars_[i].point);
-      bool in_box = true;
-      for (int k = 0; k < 3; ++k)
-        in_box = in_box && p[k] > box.min[k] && p[k] < box.max[k];
-      if (!in_box) continue;
-      if (convex_[o]) {
-        inside_[i] = std::all_of(object.faces.begin(), object.faces.end(), [&](int f) {
-          return face_planes_[f](p) == Sign::Negative;
-        });
-      } else {
-        inside_[i] = 0;  // filled by parity below
-        // Crossings with a segment that leaves the box; a degenerate one is replaced.
-        const auto at = objects_at(stars_[i].point);
-        if (std::find(at.begin(), at.end(), static_cast<std::int32_t>(o)) != at.end())
-          continue;
-        const Point size{box.max[0] - box.min[0], box.max[1] - box.min[1],
-                         box.max[2] - box.min[2]};
-        for (int attempt = 1; attempt <= 16; ++attempt) {
-          const Point far =
-              p + Point{size[0] * (2 + 0.37 * attempt), size[1] * (1.1 + 0.61 * attempt),
-                        size[2] * (3 - 0.13 * attempt) * (attempt % 2 ? 1 : -1)};
-          int winding = 0;
-          bool degenerate = false;
-          for (const int f : object.faces) {
-            const Sign s0 = face_planes_[f](p);
-            const Sign s1 = face_planes_[f](far);
-            const auto c = s.face_points(f);
-            if (s0 == s1 && s0 != Sign::Zero) continue;
-            bool hit = true;
-            bool edge = false;
-            for (std::size_t k = 0; k < c.size() && hit; ++k) {
-              const Sign t =
-                  orient3d(s.point(c[k]), s.point(c[(k + 1) % c.size()]), p, far);
-              edge |= t == Sign::Zero;
-              const Sign inward = (s0 == Sign::Positive || s1 == Sign::Negative)
-                                      ? Sign::Negative
-                                      : Sign::Positive;
-              if (t != Sign::Zero && t != inward) hit = false;
-            }
-            if (!hit) continue;
-            if (edge || s0 == Sign::Zero || s1 == Sign::Zero) {
-              degenerate = true;
-              break;
-            }
-            winding += s0 == Sign::Negative ? 1 : -1;
-          }
-          if (degenerate) continue;
-          inside_[i] = winding > 0;
-          break;
-        }
-      }
-    }
+  const SolidIndex solids(*scene_);
+  for (const Star& star : stars_) {
+    inside_.push_back(in_material(*scene_, solids, scene_->point(star.point)) ? 1 : 0);
   }
   for (const auto flag : inside_) inside_count_ += flag;
 }

@@ -128,7 +128,13 @@ class Generators {
     return {object_ids_.data() + object_starts_[point],
             static_cast<std::size_t>(object_starts_[point + 1] - object_starts_[point])};
   }
-  /// Closed, bounded inside, and convex up to folds along edges declared flat.
+  /// Behind the face is the inside of a closed object: not of a sheet, nor of a room in
+  /// which something stands (rooms_internal.h).
+  [[nodiscard]] bool solid_behind(int face) const {
+    return scene_->solid_behind(face) || empty_room_[scene_->faces()[face].object] != 0;
+  }
+  /// Closed, bounded inside, and convex up to folds along edges declared flat; no room
+  /// with something in it, nor around one.
   [[nodiscard]] bool convex_solid(int object) const { return convex_[object] != 0; }
 
   /// The sides around a facet that is a convex polygon, in its faces' orientation; empty
@@ -168,6 +174,7 @@ class Generators {
 
  private:
   void find_convex_solids();
+  void find_rooms();
   void find_outlines();
   void find_object_boxes();
   void find_blockers();
@@ -201,6 +208,7 @@ class Generators {
   std::vector<std::uint8_t> convex_;
   std::vector<std::vector<std::array<std::int32_t, 2>>> outlines_;
   std::vector<std::int32_t> object_starts_, object_ids_;
+  std::vector<std::uint8_t> empty_room_;  // by object
 };
 
 /// Sign of a plane's bounded value at p, by the exact predicate where the bound is too

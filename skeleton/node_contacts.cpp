@@ -84,9 +84,6 @@ bool pressed_at(const Generators& g, const LineScan& scan, int contact,
                 const Rational& t) {
   const Scene& scene = g.scene();
   const std::vector<int> faces = scan.faces_at(contact, t);
-  const auto closed = [&](int f) {
-    return scene.objects()[scene.faces()[f].object].closed;
-  };
   const auto opposite = [&](int f, int h) {
     for (const int p : scene.corners()) {
       const Sign s = g.face_plane(f)(scene.point(p));
@@ -104,7 +101,8 @@ bool pressed_at(const Generators& g, const LineScan& scan, int contact,
     for (std::size_t j = 0; j < i; ++j) {
       const int f = faces[i];
       const int h = faces[j];
-      if (closed(f) && closed(h) && coplanar(f, h) && opposite(f, h)) return true;
+      if (g.solid_behind(f) && g.solid_behind(h) && coplanar(f, h) && opposite(f, h))
+        return true;
     }
   }
   return false;

@@ -58,12 +58,12 @@ bool convex_corner(const Scene& scene, int point) {
   const auto edges = scene.edges_at(point);
   if (edges.empty()) return false;
   const int object = scene.edges()[edges[0]].object;
-  if (!scene.objects()[object].closed) return false;
   const auto faces = scene.faces_at(point);
   return std::all_of(edges.begin(), edges.end(),
                      [&](int e) { return scene.edges()[e].kind == EdgeKind::Convex; }) &&
-         std::all_of(faces.begin(), faces.end(),
-                     [&](int f) { return scene.faces()[f].object == object; });
+         std::all_of(faces.begin(), faces.end(), [&](int f) {
+           return scene.solid_behind(f) && scene.faces()[f].object == object;
+         });
 }
 
 // Edges at a corner that are seen from x: not those between two backs.  nullopt where x
@@ -129,11 +129,11 @@ std::optional<NodeStructure> fve_structure(const Scene& scene, int v, int facet,
 std::optional<NodeStructure> polygon_structure(const Scene& scene,
                                                const SkeletonNode& node,
                                                std::span<const Generator> generators) {
-  const auto on_closed = [&](const Generator& g) {
+  const auto on_solid = [&](const Generator& g) {
     return g.kind != GeneratorKind::Face ||
-           scene.objects()[scene.facets()[g.id].object].closed;
+           scene.solid_behind(scene.facets()[g.id].faces[0]);
   };
-  if (!std::all_of(generators.begin(), generators.end(), on_closed)) return std::nullopt;
+  if (!std::all_of(generators.begin(), generators.end(), on_solid)) return std::nullopt;
   switch (node.kind) {
     case NodeKind::VV:
       return vv_structure(scene, generators[0].id, generators[1].id);

@@ -176,7 +176,7 @@ void Generators::find_ridges() {
     b = extreme(Sign::Negative);
     if (!at.has_gap() && !polygon()) continue;
     // In a closed object the gap must be outside: fronts face it.
-    const bool closed = s.objects()[e.object].closed;
+    const bool closed = solid_behind(e.sides[0].face);
     reflex = closed && thirds.size() > 1 && e.kind == EdgeKind::Reflex;
     if (reflex && !polygon()) continue;
     if (closed && e.kind == EdgeKind::NonManifold && at.has_gap()) {
@@ -231,7 +231,7 @@ void Generators::find_ridges() {
     const bool foot =
         polygon() && inside_faces &&
         std::any_of(grounds.begin(), grounds.end(), [&](int f) {
-          const bool solid = s.objects()[s.faces()[f].object].closed;
+          const bool solid = solid_behind(f);
           return std::any_of(thirds.begin(), thirds.end(), [&](int p) {
             const Sign side = face_planes_[f](s.point(p));
             return side == Sign::Positive || (!solid && side == Sign::Negative);
@@ -332,7 +332,7 @@ void Generators::add_ridge(int edge, const EdgeFaces& at, std::vector<Box>& boxe
   Ridge& ridge = ridges_.back();
   ridge.grazes = at.has_gap() && !at.reflex;
   ridge.foot = at.foot;
-  const bool closed = s.objects()[e.object].closed;
+  const bool closed = solid_behind(e.sides[0].face);
   const bool crease = thirds.size() > 1 || at.touched;
   ridge.ends_in_front = (crease && !at.reflex) || at.many;
   ridge.ends_behind = (crease && (at.reflex || !closed)) || at.many;

@@ -5,6 +5,7 @@
 #include <deque>
 #include <limits>
 
+#include "linespace/exact_position_internal.h"
 #include "skeleton/degenerate_pair_internal.h"
 #include "skeleton/far_pieces_internal.h"
 #include "skeleton/irrational_line_internal.h"
@@ -145,6 +146,25 @@ struct SkeletonLines::Impl {
     return along(e0, e1, x / (x - y));
   }
 
+  // Positions 0 and 1 of an arc's line.
+  [[nodiscard]] std::array<ExactPoint, 2> points(const SkeletonArc& arc, double s) const {
+    return {point(arc.vertex), on_edge(arc.edge, s)};
+  }
+  // On the last edge, where the plane of the point on the first and of the middle edge
+  // crosses it.
+  [[nodiscard]] std::optional<std::array<ExactPoint, 2>> points(const EeeArc& arc,
+                                                                double s) const {
+    const ExactPoint p = on_edge(arc.edges[0], s);
+    const auto& middle = scene.edges()[arc.edges[1]].points;
+    const auto q = crossing(arc.edges[2], p, point(middle[0]), point(middle[1]));
+    if (!q) return std::nullopt;
+    return std::array<ExactPoint, 2>{p, *q};
+  }
+  [[nodiscard]] ExactPoint on_edge(int edge, double s) const {
+    const auto& ends = scene.edges()[edge].points;
+    return along(point(ends[0]), point(ends[1]), Rational(s));
+  }
+
   // The rational line of a node through two points, from its first contact on.
   [[nodiscard]] std::optional<FreeSegment> node_line(const std::array<ExactPoint, 2>& at,
                                                      const SkeletonNode& node) const {
@@ -203,23 +223,41 @@ SkeletonLines::~SkeletonLines() = default;
 SkeletonLines::SkeletonLines(SkeletonLines&&) noexcept = default;
 
 FreeSegment SkeletonLines::line(const SkeletonArc& arc, double s) const {
-  const Edge& edge = impl_->scene.edges()[arc.edge];
-  return impl_->line(
-      impl_->point(arc.vertex),
-      along(impl_->point(edge.points[0]), impl_->point(edge.points[1]), Rational(s)),
-      arc.ends);
+  const auto [v, x] = impl_->points(arc, s);
+  return impl_->line(v, x, arc.ends);
 }
 
 std::optional<FreeSegment> SkeletonLines::line(const EeeArc& arc, double s) const {
-  const auto& edges = impl_->scene.edges();
-  const auto& first = edges[arc.edges[0]].points;
-  const auto& middle = edges[arc.edges[1]].points;
-  const ExactPoint p = along(impl_->point(first[0]), impl_->point(first[1]), Rational(s));
-  // On the last edge, where the plane of p and the middle edge crosses it.
-  const auto q =
-      impl_->crossing(arc.edges[2], p, impl_->point(middle[0]), impl_->point(middle[1]));
-  if (!q) return std::nullopt;
-  return impl_->line(p, *q, arc.ends);
+  const auto at = impl_->points(arc, s);
+  if (!at) return std::nullopt;
+  return impl_->line((*at)[0], (*at)[1], arc.ends);
+}
+
+namespace {
+
+std::array<ExactPosition, 2> positions(const std::array<ExactPoint, 2>& points) {
+  return {internal::exact_position(points[0]), internal::exact_position(points[1])};
+}
+
+}  // namespace
+
+std::array<ExactPosition, 2> SkeletonLines::points(const SkeletonArc& arc,
+                                                   double s) const {
+  return positions(impl_->points(arc, s));
+}
+
+std::optional<std::array<ExactPosition, 2>> SkeletonLines::points(const EeeArc& arc,
+                                                                  double s) const {
+  const auto at = impl_->points(arc, s);
+  if (!at) return std::nullopt;
+  return positions(*at);
+}
+
+std::optional<std::array<ExactPosition, 2>> SkeletonLines::points(
+    const Skeleton& skeleton, const SkeletonNode& node) const {
+  const auto found = internal::line_of_node(impl_->scene, skeleton, node);
+  if (!found || found->irrational) return std::nullopt;
+  return positions(found->points);
 }
 
 std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) const {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <vector>
 
+#include "linespace/exact_position.h"
 #include "linespace/occlusion.h"
 #include "skeleton/skeleton.h"
 
@@ -33,6 +34,18 @@ class SkeletonLines {
   /// arc's range.  nullopt when the plane of that point and the middle edge is parallel
   /// to the last edge, which happens only outside the arc.  Cost as above.
   [[nodiscard]] std::optional<FreeSegment> line(const EeeArc& arc, double s) const;
+
+  /// The points of line(arc, s) at positions 0 and 1, exactly.  Of s with few digits they
+  /// have few.
+  [[nodiscard]] std::array<ExactPosition, 2> points(const SkeletonArc& arc,
+                                                    double s) const;
+  /// The same; nullopt where line(arc, s) is.
+  [[nodiscard]] std::optional<std::array<ExactPosition, 2>> points(const EeeArc& arc,
+                                                                   double s) const;
+  /// Two points of a node's line, exactly; nullopt where its generators do not tell the
+  /// line (as in line() below), and where it has no rational points.
+  [[nodiscard]] std::optional<std::array<ExactPosition, 2>> points(
+      const Skeleton& skeleton, const SkeletonNode& node) const;
 
   /// A part of an arc whose lines have the same faces at both far ends.
   struct Piece {

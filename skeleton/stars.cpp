@@ -89,7 +89,8 @@ void Generators::find_stars() {
     for (const auto& w : wedges) star.sectors.push_back({ray(w[0]), ray(w[1]), w[2]});
 
     star.touched = star.touched || objects_at(p).size() > 1;
-    bool convex = !star.touched && s.objects()[s.faces()[own[0]].object].closed;
+    bool convex = !star.touched && std::all_of(own.begin(), own.end(),
+                                               [&](int f) { return solid_behind(f); });
     for (const int e : s.edges_at(p))
       convex = convex && s.edges()[e].kind == EdgeKind::Convex;
     // Locally convex along every edge and one fan: check it is one cone.

@@ -275,7 +275,7 @@ bool VertexViewer::touching_across(const Pair& pair) const {
     }
     if (!zero || (front && back)) continue;
     if (!front && !back) {
-      if (!scene_.objects()[f.object].closed || off_plane < 0) return true;
+      if (!g_.solid_behind(face) || off_plane < 0) return true;
       // The solid lies behind the face.
       const Sign solid = -(g_.face_plane(face)(scene_.point(off_plane)) *
                            pair.plane(scene_.point(off_plane)));

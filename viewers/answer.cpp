@@ -135,6 +135,18 @@ Json points_json(const std::array<Point, 2>& points) {
   return {point_json(points[0]), point_json(points[1])};
 }
 
+Json position_json(const ExactPosition& p) {
+  Json j = Json::array();
+  for (int axis = 0; axis < 3; ++axis) {
+    if (p.is_double[axis]) {
+      j.push_back(p.nearest[axis]);
+    } else {
+      j.push_back(p.exact[axis]);
+    }
+  }
+  return j;
+}
+
 Json info_json(const Scene& scene, const std::vector<Defect>& defects) {
   const MeshEdgeCounts& e = scene.mesh_edges();
   Json info{{"vertices", vertex_count(scene)},

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "linespace/exact_position.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
 #include "skeleton/skeleton.h"
@@ -42,6 +43,8 @@ struct Cost {
 [[nodiscard]] Json stage_counts(const StageCounts& counts);
 [[nodiscard]] Json point_json(const Point& p);
 [[nodiscard]] Json points_json(const std::array<Point, 2>& points);
+/// Exactly: numbers, or "p/q" where no double is.
+[[nodiscard]] Json position_json(const ExactPosition& position);
 
 /// What `sightline info` says about a scene, common keys left out.
 [[nodiscard]] Json info_json(const Scene& scene, const std::vector<Defect>& defects);

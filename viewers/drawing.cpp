@@ -35,7 +35,7 @@ double area_of(const Scene& scene, int face) {
 /// The object looks like a solid from everywhere: its faces' normals, weighted by area,
 /// cancel, as those of every closed surface do, also where the file's edges do not match.
 bool encloses_solid(const Scene& scene, const Object& object) {
-  if (object.closed) return true;
+  if (object.closed) return !object.inside_out;
   Point sum = Point::Zero();
   double area = 0;
   for (const int f : object.faces) {
@@ -106,7 +106,7 @@ Drawing draw_faces(const Scene& scene, const std::vector<char>& shown) {
     if (!shown[f]) continue;
     const Face& face = scene.faces()[f];
     const std::span<const int> ids = scene.face_points(static_cast<int>(f));
-    const bool closed = scene.objects()[face.object].closed;
+    const bool closed = scene.solid_behind(static_cast<int>(f));
     for (std::size_t i = 2; i < ids.size(); ++i) {
       drawing.triangles.push_back(
           {{scene.point(ids[0]), scene.point(ids[i - 1]), scene.point(ids[i])},
@@ -125,9 +125,8 @@ void add_edges(Drawing& drawing, const Scene& scene, const std::vector<char>& sh
   for (const Edge& edge : scene.edges()) {
     const bool is_seen = std::ranges::any_of(edge.sides, [&](const Edge::Side& side) {
       if (!shown[side.face]) return false;
-      const Face& face = scene.faces()[side.face];
       const Point& p = scene.point(scene.face_points(side.face)[0]);
-      return !scene.objects()[face.object].closed ||
+      return !scene.solid_behind(side.face) ||
              normal_of(scene, side.face).dot(eye - p) > 0;
     });
     if (!is_seen) continue;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "viewers/eee_surface.h"
-
 namespace sightline::viewers {
 std::vector<int> source_polygons(const Scene& scene, const std::vector<int>& faces) {
   std::vector<int> polygons;
@@ -40,18 +38,17 @@ Point point_on_edge(const Scene& scene, const Edge& edge, double s) {
 
 FarEnds far_ends(const Scene& scene, const SkeletonLines& lines, const SkeletonArc& arc,
                  double s) {
-  const Edge& edge = scene.edges()[arc.edge];
-  return far_ends_of(scene, lines.line(arc, s), scene.point(arc.vertex),
-                     point_on_edge(scene, edge, s));
+  const auto [v, x] = lines.points(arc, s);
+  return far_ends_of(scene, lines.line(arc, s), v.nearest, x.nearest);
 }
 
 std::optional<FarEnds> far_ends(const Scene& scene, const SkeletonLines& lines,
                                 const EeeArc& arc, double s) {
   if (!(s > arc.range[0] && s < arc.range[1])) return std::nullopt;
   const auto free = lines.line(arc, s);
-  if (!free) return std::nullopt;
-  const auto [p, q] = EeeSurface(scene, arc).line(s);
-  return far_ends_of(scene, *free, p, q);
+  const auto at = lines.points(arc, s);
+  if (!free || !at) return std::nullopt;
+  return far_ends_of(scene, *free, (*at)[0].nearest, (*at)[1].nearest);
 }
 
 std::optional<FarEnds> far_ends(const Scene& scene, const SkeletonLines& lines,

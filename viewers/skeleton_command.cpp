@@ -456,9 +456,10 @@ Command add_skeleton_command(CLI::App& app) {
       ->check(number_from_zero());
   add_budget_option(*command, options->budget);
   add_size_budget_option(*command, options->budget_bytes);
-  command->add_flag("--list", options->list,
-                    "add every node and arc to the JSON answer: generators, line, "
-                    "contacts, free segment and what ends it");
+  command->add_flag(
+      "--list", options->list,
+      "add every node and arc to the JSON answer: generators, line (of arcs "
+      "exactly: numbers or \"p/q\"), contacts, free segment and what ends it");
   command->add_flag(
       "--extend", options->extend,
       "with --vtk: draw EV arcs out to the ends of their free segments too");

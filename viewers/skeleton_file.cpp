@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "viewers/drawing.h"
-#include "viewers/eee_surface.h"
 #include "viewers/far_ends.h"
 #include "viewers/json_text.h"
 
@@ -76,22 +76,46 @@ void add_pieces(Json& j, const Scene& scene, const SkeletonLines& lines, const A
   j["pieces"] = std::move(pieces);
 }
 
-/// The line at the middle of the arc's range, and what lies along it.
+/// A parameter in the middle half of an arc's range, with as few digits as there is one.
+double plain_parameter(const std::array<double, 2>& range) {
+  const double quarter = 0.25 * (range[1] - range[0]);
+  for (double step = 1; step > 0x1p-60; step /= 2) {
+    const double s = std::ceil((range[0] + quarter) / step) * step;
+    if (s <= range[1] - quarter) return s;
+  }
+  return 0.5 * (range[0] + range[1]);
+}
+
+Json positions_json(const std::array<ExactPosition, 2>& points) {
+  return Json::array({position_json(points[0]), position_json(points[1])});
+}
+
+/// "parameter" and "line": a line of the arc, exactly, by the points at positions 0 and
+/// 1; and what lies along it.
 void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
               const SkeletonArc& arc) {
-  const double middle = 0.5 * (arc.range[0] + arc.range[1]);
-  j["line"] = points_json(
-      {scene.point(arc.vertex), point_on_edge(scene, scene.edges()[arc.edge], middle)});
-  add_far_ends(j, scene, far_ends(scene, lines, arc, middle));
+  const double s = plain_parameter(arc.range);
+  j["parameter"] = s;
+  j["line"] = positions_json(lines.points(arc, s));
+  add_far_ends(j, scene, far_ends(scene, lines, arc, s));
   add_pieces(j, scene, lines, arc);
 }
 
 void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
               const EeeArc& arc) {
-  const double middle = 0.5 * (arc.range[0] + arc.range[1]);
-  j["line"] = points_json(EeeSurface(scene, arc).line(middle));
-  add_far_ends(j, scene, far_ends(scene, lines, arc, middle));
+  const double s = plain_parameter(arc.range);
+  const auto points = lines.points(arc, s);
+  j["parameter"] = s;
+  j["line"] = points ? positions_json(*points) : Json(nullptr);
+  add_far_ends(j, scene, far_ends(scene, lines, arc, s));
   add_pieces(j, scene, lines, arc);
+}
+
+/// "exact_line": two points of the line; null where only the rounded one is known.
+void add_line(Json& j, const SkeletonLines& lines, const Skeleton& skeleton,
+              const SkeletonNode& node) {
+  const auto points = lines.points(skeleton, node);
+  j["exact_line"] = points ? positions_json(*points) : Json(nullptr);
 }
 
 bool is_end(const Json& j) { return j.value("contact", "graze") == "end"; }
@@ -187,6 +211,7 @@ void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& sc
   for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
     Json node = node_json(scene, skeleton, i);
     if (lines != nullptr) {
+      add_line(node, *lines, skeleton, skeleton.nodes[i]);
       add_far_ends(node, scene, far_ends(scene, *lines, skeleton, skeleton.nodes[i]));
     }
     stream << (i == 0 ? "\n   " : ",\n   ") << json_text(node);

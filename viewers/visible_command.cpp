@@ -30,19 +30,6 @@ struct VisibleOptions : CommonOptions {
   bool all_pairs = false;
 };
 
-// A number where a double is exact, else "p/q".
-Json position_json(const ExactPosition& p) {
-  Json j = Json::array();
-  for (int axis = 0; axis < 3; ++axis) {
-    if (p.is_double[axis]) {
-      j.push_back(p.nearest[axis]);
-    } else {
-      j.push_back(p.exact[axis]);
-    }
-  }
-  return j;
-}
-
 Json witness_json(const VisibilityAnswer& answer) {
   if (!answer.witness) return nullptr;
   return Json::array(

@@ -195,11 +195,15 @@ TEST(Scene, CubeOfQuadsAndOfTriangles) {
   }
 }
 
-TEST(Scene, InsideOutCubeIsReflexAndNotConvex) {
+// Its edges count with the fronts of the file; it is taken turned outwards.
+TEST(Scene, InsideOutCubeIsReflexAndARoom) {
   const Scene scene(reversed(box()));
   EXPECT_EQ(counts(scene.mesh_edges()), (std::array<int, 5>{0, 12, 0, 0, 0}));
   EXPECT_TRUE(scene.objects()[0].closed);
-  EXPECT_FALSE(scene.objects()[0].convex);
+  EXPECT_TRUE(scene.objects()[0].convex && scene.objects()[0].inside_out);
+  EXPECT_EQ(scene.edges()[0].kind, EdgeKind::Convex);
+  ASSERT_EQ(validate(scene).size(), 1U);
+  EXPECT_EQ(validate(scene)[0].kind, "inside-out");
   EXPECT_EQ(scene.solids(), 1);
 }
 

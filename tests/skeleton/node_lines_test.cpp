@@ -12,6 +12,7 @@
 #include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/eee_scenes.h"
+#include "tests/support/exact.h"
 #include "tests/support/generators.h"
 
 namespace sightline {
@@ -239,6 +240,73 @@ TEST(NodeLines, EndWhereTheArcsBesideThemDo) {
   }
   EXPECT_GT(compared, 100);
   std::printf("%d EEEE lines compared\n", compared);
+}
+
+using testing::Rational;
+using testing::Vec3;
+
+std::array<Vec3, 2> parsed(const std::array<ExactPosition, 2>& points) {
+  std::array<Vec3, 2> out;
+  for (int k = 0; k < 2; ++k) {
+    for (int i = 0; i < 3; ++i) {
+      out[k][i] = Rational(points[k].exact[i]);
+      EXPECT_EQ(points[k].is_double[i], Rational(points[k].nearest[i]) == out[k][i]);
+    }
+  }
+  return out;
+}
+
+// What --list tells of arcs and nodes holds exactly: the line's points are on the outer
+// generators of an arc, and the line meets all others; a node's line meets its own.
+TEST(NodeLines, ExactPointsAreOnLinesThatMeetTheirGenerators) {
+  int arcs = 0, nodes = 0, irrational = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const Scene scene(testing::eee_scene(seed));
+    const SkeletonLines lines(scene);
+    const Skeleton skeleton = all_kinds(scene, EventMode::Solid);
+    const auto point = [&](int id) { return testing::exact(scene.point(id)); };
+    const auto on = [&](const Vec3& p, const Vec3& a, const Vec3& b) {
+      return testing::is_zero(testing::cross(b - a, p - a));
+    };
+    const auto on_edge = [&](const Vec3& p, int edge) {
+      const auto& e = scene.edges()[edge].points;
+      return on(p, point(e[0]), point(e[1]));
+    };
+    const auto meets_edge = [&](const std::array<Vec3, 2>& line, int edge) {
+      const auto& e = scene.edges()[edge].points;
+      const Vec3 n = testing::cross(line[1] - line[0], point(e[0]) - line[0]);
+      return testing::dot(n, point(e[1]) - line[0]) == 0;
+    };
+    for (const SkeletonArc& arc : skeleton.arcs) {
+      const auto at = parsed(lines.points(arc, 0.5 * (arc.range[0] + arc.range[1])));
+      EXPECT_EQ(at[0], point(arc.vertex));
+      EXPECT_TRUE(on_edge(at[1], arc.edge));
+      ++arcs;
+    }
+    for (const EeeArc& arc : skeleton.eee_arcs) {
+      const auto found = lines.points(arc, 0.5 * (arc.range[0] + arc.range[1]));
+      ASSERT_TRUE(found);
+      const auto at = parsed(*found);
+      EXPECT_TRUE(on_edge(at[0], arc.edges[0]) && on_edge(at[1], arc.edges[2]));
+      EXPECT_TRUE(meets_edge(at, arc.edges[1]));
+      ++arcs;
+    }
+    for (const SkeletonNode& node : skeleton.nodes) {
+      const auto found = lines.points(skeleton, node);
+      irrational += node.kind == NodeKind::EEEE && !found;
+      if (!found) continue;
+      const auto at = parsed(*found);
+      ++nodes;
+      for (const Generator& g : skeleton.generators(node)) {
+        EXPECT_TRUE(g.kind != GeneratorKind::Vertex || on(point(g.id), at[0], at[1]));
+        EXPECT_TRUE(g.kind != GeneratorKind::Edge || meets_edge(at, g.id));
+      }
+    }
+  }
+  std::printf("%d arcs, %d nodes, %d irrational\n", arcs, nodes, irrational);
+  EXPECT_GT(arcs, 3000);
+  EXPECT_GT(nodes, 3000);
+  EXPECT_GT(irrational, 30);
 }
 
 }  // namespace
