@@ -1,5 +1,6 @@
 #include "viewers/answer.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -233,6 +234,54 @@ Json arc_counts(const Skeleton& skeleton) {
   return counts;
 }
 
+std::string stopped_by_name(StoppedBy what) {
+  switch (what) {
+    case StoppedBy::Seconds:
+      return "seconds";
+    case StoppedBy::Bytes:
+      return "megabytes";
+    case StoppedBy::Request:
+      return "interruption";
+    case StoppedBy::Nothing:
+      break;
+  }
+  return "nothing";
+}
+
+StoppedBy stopped_by_from(const std::string& name) {
+  for (const StoppedBy what :
+       {StoppedBy::Seconds, StoppedBy::Bytes, StoppedBy::Request, StoppedBy::Nothing}) {
+    if (stopped_by_name(what) == name) return what;
+  }
+  throw InvalidInput(fmt::format("nothing is stopped by '{}'", name));
+}
+
+Json skeleton_json(const Skeleton& skeleton) {
+  Json j{{"nodes", node_counts(skeleton)},
+         {"arcs", arc_counts(skeleton)},
+         {"vertices_done", skeleton.vertices_done},
+         {"vertices_asked", skeleton.vertices_asked},
+         {"edges_done", skeleton.edges_done},
+         {"edges_asked", skeleton.edges_asked},
+         {"facets_done", skeleton.facets_done},
+         {"facets_asked", skeleton.facets_asked},
+         {"skeleton_bytes", skeleton.bytes()}};
+  if (skeleton.stopped_by == StoppedBy::Nothing) return j;
+  Json missing = Json::array();
+  const auto add = [&](const char* arcs, std::size_t done, std::size_t asked,
+                       const char* generators) {
+    if (done == asked) return;
+    missing.push_back(
+        fmt::format("the {} of {} of {} {}", arcs, asked - done, asked, generators));
+  };
+  add("EV arcs", skeleton.vertices_done, skeleton.vertices_asked, "vertices");
+  add("EEE arcs", skeleton.edges_done, skeleton.edges_asked, "first edges");
+  add("FF nodes", skeleton.facets_done, skeleton.facets_asked, "first faces");
+  j["stopped_by"] = stopped_by_name(skeleton.stopped_by);
+  j["missing"] = std::move(missing);
+  return j;
+}
+
 Json node_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
   const SkeletonNode& node = skeleton.nodes[id];
   Json j{{"id", id}, {"kind", kind_name(node)}};
@@ -297,6 +346,7 @@ Json simplified_json(const Scene& scene, const Simplified& simplified, bool with
   }
   j["edge_ids"] = simplified.edges;
   j["vertex_ids"] = simplified.vertices;
+  j["object_ids"] = simplified.objects;
   j["object_names"] = std::move(names);
   j["arc_list"] = std::move(arcs);
   return j;

@@ -53,6 +53,15 @@ struct Cost {
 [[nodiscard]] Json node_counts(const Skeleton& skeleton);
 [[nodiscard]] Json arc_counts(const Skeleton& skeleton);
 
+/// "nodes", "arcs" and how far each kind has come: "vertices_done", "vertices_asked",
+/// "edges_...", "facets_...", "skeleton_bytes"; where something ended it early also
+/// "stopped_by" and "missing", in words.
+[[nodiscard]] Json skeleton_json(const Skeleton& skeleton);
+/// "seconds", "megabytes", "interruption" or "nothing", and back; InvalidInput for
+/// others.
+[[nodiscard]] std::string stopped_by_name(StoppedBy what);
+[[nodiscard]] StoppedBy stopped_by_from(const std::string& name);
+
 /// One node, one arc, with generators and coordinates; without contacts and free segment.
 [[nodiscard]] Json node_json(const Scene& scene, const Skeleton& skeleton,
                              std::size_t node);
@@ -63,8 +72,8 @@ struct Cost {
                                 std::size_t arc);
 
 /// What a feature size left out: {"feature_size", "edges", "vertices", "objects",
-/// "arcs"}, all counts; with ids also "edge_ids", "vertex_ids", "object_names" and
-/// "arc_list".
+/// "arcs"}, all counts; with ids also "edge_ids", "vertex_ids", "object_ids",
+/// "object_names" and "arc_list".
 [[nodiscard]] Json simplified_json(const Scene& scene, const Simplified& simplified,
                                    bool with_ids);
 

@@ -2,12 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
+#include <cmath>
 
 #include "linespace/predicates.h"
+#include "viewers/input_file.h"
 
 namespace sightline::viewers {
 namespace {
@@ -23,22 +21,9 @@ std::string_view without_number(std::string_view what) {
 }
 
 nlohmann::json parse_file(const std::string& file) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (error || !fs::exists(status)) {
-    refuse_file(file, "cannot be read: " + (error ? error.message() : "no such file"));
-  }
-  if (!fs::is_regular_file(status)) refuse_file(file, "cannot be read: it is not a file");
-  if (fs::file_size(file, error) > JsonInput::kLargestFile) {
-    refuse_file(file, "is larger than 1 GiB");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    refuse_file(file, fmt::format("cannot be read: {}", std::strerror(errno)));
-  }
+  const std::string bytes = read_whole(file, JsonInput::kLargestFile);
   try {
-    return nlohmann::json::parse(stream);
+    return nlohmann::json::parse(bytes);
   } catch (const nlohmann::json::exception& reason) {
     refuse_file(file, fmt::format("not JSON: {}", without_number(reason.what())));
   }
@@ -47,7 +32,8 @@ nlohmann::json parse_file(const std::string& file) {
 }  // namespace
 
 JsonInput::JsonInput(const std::string& file) {
-  document_ = std::make_shared<const Document>(Document{file, parse_file(file)});
+  const std::string name = file == kStandardInput ? "standard input" : file;
+  document_ = std::make_shared<const Document>(Document{name, parse_file(file)});
   value_ = &document_->root;
 }
 

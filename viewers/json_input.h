@@ -20,8 +20,9 @@ namespace sightline::viewers {
 /// numbers".
 class JsonInput {
  public:
-  /// Reads and parses the whole file.  Throws InvalidInput when it is no regular file
-  /// that can be opened, is larger than kLargestFile, or is no JSON (says where and why).
+  /// Reads and parses the whole file, or standard input for "-".  Throws InvalidInput
+  /// when read_whole does, it is larger than kLargestFile, or no JSON (says where and
+  /// why).
   explicit JsonInput(const std::string& file);
   static constexpr std::size_t kLargestFile = std::size_t{1} << 30;
 

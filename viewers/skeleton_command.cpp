@@ -55,6 +55,12 @@ Point point_of(const std::string& text) {
     if (error != std::errc() || (last ? next != end : next == end || *next != ',')) {
       throw UsageError(fmt::format("--crossed: '{}' is not a point x,y,z", text));
     }
+    if (!is_admissible(p[i])) {
+      throw UsageError(fmt::format(
+          "--crossed: '{}': a coordinate is neither 0 nor of magnitude from 2^-140 to "
+          "2^140",
+          text));
+    }
     at = next + 1;
   }
   return p;
@@ -71,13 +77,10 @@ void check(const SkeletonOptions& options) {
   if (!options.between.empty() && !options.through.empty()) {
     throw UsageError("--between and --through exclude each other");
   }
-  if (!options.saved.empty() &&
-      (!options.between.empty() || !options.through.empty() || !options.region.empty())) {
-    throw UsageError(
-        "--saved takes the skeleton as it is: no --between, --through, "
-        "--region");
+  if (options.crossed.size() == 2 &&
+      point_of(options.crossed[0]) == point_of(options.crossed[1])) {
+    throw UsageError("--crossed: its two points are the same");
   }
-  for (const std::string& point : options.crossed) point_of(point);
   if (options.near.empty() != (options.radius == 0)) {
     throw UsageError("--near and --radius belong together");
   }
@@ -143,34 +146,6 @@ Json options_json(const SkeletonOptions& options) {
     j["near"] = {{"at", options.near}, {"radius", options.radius}};
   if (!options.between_boxes.empty()) j["between_boxes"] = options.between_boxes;
   return j;
-}
-
-const char* stopped_by_name(StoppedBy what) {
-  switch (what) {
-    case StoppedBy::Seconds:
-      return "seconds";
-    case StoppedBy::Bytes:
-      return "megabytes";
-    case StoppedBy::Request:
-      return "interruption";
-    case StoppedBy::Nothing:
-      break;
-  }
-  return "nothing";
-}
-
-Json missing_json(const Skeleton& skeleton) {
-  Json missing = Json::array();
-  const auto add = [&](const char* arcs, std::size_t done, std::size_t asked,
-                       const char* generators) {
-    if (done == asked) return;
-    missing.push_back(
-        fmt::format("the {} of {} of {} {}", arcs, asked - done, asked, generators));
-  };
-  add("EV arcs", skeleton.vertices_done, skeleton.vertices_asked, "vertices");
-  add("EEE arcs", skeleton.edges_done, skeleton.edges_asked, "first edges");
-  add("FF nodes", skeleton.facets_done, skeleton.facets_asked, "first faces");
-  return missing;
 }
 
 void print_summary(const Scene& scene, const Skeleton& skeleton, const Json& answer) {
@@ -288,19 +263,70 @@ void print_queries(const Json& answer) {
   }
 }
 
-Skeleton saved_skeleton(const std::string& file, const Scene& scene) {
-  StoredSkeleton stored = read_skeleton_json(file);
+/// A skeleton, built now or read, and what was asked of it when it was built.
+struct Made {
+  Skeleton skeleton;
+  Json options;
+};
+
+Made made_skeleton(const SkeletonOptions& options, const Scene& scene,
+                   SkeletonRequest request) {
+  if (options.saved.empty()) {
+    Progress progress("skeleton");
+    request.progress = progress.callback();
+    return {build_selected(scene, request, selection_of(options)), options_json(options)};
+  }
+  StoredSkeleton stored = read_skeleton_json(options.saved);
   check_fits(stored, scene);
-  return std::move(stored.skeleton);
+  stored.options["saved"] = options.saved;
+  return {std::move(stored.skeleton), std::move(stored.options)};
 }
 
 Scene scene_of(const SkeletonOptions& options) {
   Scene scene(read_mesh(options.scene));
-  return options.perturb > 0 ? Scene(perturbed(scene, options.perturb, options.seed))
-                             : scene;
+  if (options.perturb == 0) return scene;
+  PolygonSoup moved = perturbed(scene, options.perturb, options.seed);
+  moved.source = options.scene;  // the answer's options say how it was moved
+  return Scene(std::move(moved));
+}
+
+/// Refuses groups that the scene does not have, before anything is computed.
+void check_groups(const SkeletonOptions& options, const Scene& scene) {
+  std::vector<std::string> names = options.between;
+  if (!options.through.empty()) names.push_back(options.through);
+  for (const std::string& name : names) (void)scene.faces_named(name);
+  std::vector<std::string> ends = options.between_ends;
+  if (!options.seen_from.empty()) ends.push_back(options.seen_from);
+  for (const std::string& name : ends) {
+    if (name != "outside") (void)scene.faces_named(name);
+  }
+}
+
+Json answer_of(const SkeletonOptions& options, const Scene& scene, const Made& made,
+               bool complete, const Cost& cost, bool with_ids) {
+  Json answer = answer_head("skeleton", scene, complete, cost);
+  answer["options"] = made.options;
+  answer["options"]["precision"] =
+      options.precision == Precision::Exact ? "exact" : "double";
+  answer.update(skeleton_json(made.skeleton));
+  answer["simplified"] = simplified_json(scene, made.skeleton.simplified, with_ids);
+  return answer;
+}
+
+void write_vtk_files(const SkeletonOptions& options, const Scene& scene,
+                     const Skeleton& skeleton) {
+  std::vector<RuledStrip> strips;
+  if (options.extend) {
+    const SkeletonLines lines(scene);
+    for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
+      strips.push_back(ruled_strip(scene, lines, skeleton, static_cast<int>(i), 9));
+    }
+  }
+  write_vtk(options.vtk, scene, {&skeleton, options.extend ? &strips : nullptr});
 }
 
 ExitStatus run(const SkeletonOptions& options) {
+  // 1. The outputs, then the scene.
   check(options);
   const Interruption interruption;
   Outputs outputs(options);
@@ -310,61 +336,37 @@ ExitStatus run(const SkeletonOptions& options) {
   const Meter meter;
   const PrecisionScope precision(options.precision);
   const Scene scene = scene_of(options);
+  check_groups(options, scene);
   const StageCounts loading = meter.predicates();
 
+  // 2. The skeleton, and what is asked of it.
   SkeletonRequest request = request_of(options);
   request.budget_seconds -= meter.seconds();
   request.stop = interruption.token();
-  Skeleton skeleton;
-  if (!options.saved.empty()) {
-    skeleton = saved_skeleton(options.saved, scene);
-  } else {
-    Progress progress("skeleton");
-    request.progress = progress.callback();
-    skeleton = build_selected(scene, request, selection_of(options));
-  }
+  const Made made = made_skeleton(options, scene, request);
+  const Skeleton& skeleton = made.skeleton;
   bool complete = skeleton.complete;
   Json queries;
   if (options.asks()) {
     request.budget_seconds = options.budget - meter.seconds();
     complete = answer_queries(options, scene, skeleton, request, queries) && complete;
   }
-  Json answer = answer_head("skeleton", scene, complete,
-                            {meter.seconds(), loading + skeleton.predicates});
-  answer["options"] = options_json(options);
-  answer["nodes"] = node_counts(skeleton);
-  answer["arcs"] = arc_counts(skeleton);
-  answer["vertices_done"] = skeleton.vertices_done;
-  answer["vertices_asked"] = skeleton.vertices_asked;
-  answer["edges_done"] = skeleton.edges_done;
-  answer["edges_asked"] = skeleton.edges_asked;
-  if (!queries.is_null()) answer.update(queries);
-  answer["facets_done"] = skeleton.facets_done;
-  answer["facets_asked"] = skeleton.facets_asked;
-  answer["skeleton_bytes"] = skeleton.bytes();
-  if (skeleton.stopped_by != StoppedBy::Nothing) {
-    answer["stopped_by"] = stopped_by_name(skeleton.stopped_by);
-    answer["missing"] = missing_json(skeleton);
-  }
-  answer["simplified"] = simplified_json(scene, skeleton.simplified, options.list);
+  const Cost cost{meter.seconds(), loading + skeleton.predicates};
 
-  std::optional<SkeletonLines> lines;
-  if (options.list || options.extend) lines.emplace(scene);
+  // 3. The files; the answer comes last.
   if (output != nullptr) {
-    write_skeleton_json(output->stream(), answer, scene, skeleton, nullptr);
+    write_skeleton_json(
+        output->stream(),
+        answer_of(options, scene, made, skeleton.complete, cost, /*with_ids=*/true),
+        scene, skeleton, nullptr);
     output->commit();
   }
-  if (!options.vtk.empty()) {
-    std::vector<RuledStrip> strips;
-    if (options.extend) {
-      for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
-        strips.push_back(ruled_strip(scene, *lines, skeleton, static_cast<int>(i), 9));
-      }
-    }
-    write_vtk(options.vtk, scene, {&skeleton, options.extend ? &strips : nullptr});
-  }
+  if (!options.vtk.empty()) write_vtk_files(options, scene, skeleton);
+  Json answer = answer_of(options, scene, made, complete, cost, options.list);
+  if (!queries.is_null()) answer.update(queries);
   if (options.list && outputs.json() != nullptr) {
-    write_skeleton_json(outputs.json()->stream(), answer, scene, skeleton, &*lines);
+    const SkeletonLines lines(scene);
+    write_skeleton_json(outputs.json()->stream(), answer, scene, skeleton, &lines);
     outputs.json()->commit();
   } else {
     outputs.write_answer(answer);
@@ -467,11 +469,20 @@ Command add_skeleton_command(CLI::App& app) {
       ->add_option("-o,--output", options->output,
                    "save the skeleton as JSON; `sightline view FILE` shows it")
       ->type_name("FILE");
-  command
-      ->add_option("--saved", options->saved,
-                   "take the skeleton of this scene from a file that -o wrote, instead "
-                   "of building it")
-      ->type_name("FILE");
+  CLI::Option* const saved =
+      command
+          ->add_option("--saved", options->saved,
+                       "take the skeleton of this scene from a file that -o wrote, "
+                       "instead of building it, with the options that it was built "
+                       "with; refused when the scene's coordinates, polygons or groups "
+                       "have changed since, or the file has")
+          ->type_name("FILE");
+  // What only the building obeys.
+  for (const char* name :
+       {"--events", "--kinds", "--between", "--through", "--region", "--near", "--radius",
+        "--between-boxes", "--feature-size", "--budget-mb"}) {
+    saved->excludes(command->get_option(name));
+  }
   command
       ->add_option("--seen-from", options->seen_from,
                    "list the arcs with a line that ends on this group: the events that "

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <optional>
+#include <string_view>
 
+#include "viewers/checksum.h"
 #include "viewers/drawing.h"
 #include "viewers/far_ends.h"
+#include "viewers/input_file.h"
 #include "viewers/json_text.h"
 
 namespace sightline::viewers {
@@ -118,14 +122,34 @@ void add_line(Json& j, const SkeletonLines& lines, const Skeleton& skeleton,
   j["exact_line"] = points ? positions_json(*points) : Json(nullptr);
 }
 
+// ---- reading
+
+/// A file says something that no saved skeleton says.
+class Malformed : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+std::int32_t id_from(const Json& j) {
+  const auto id = j.get<std::int64_t>();
+  if (!j.is_number_integer() || id < -1 ||
+      id > std::numeric_limits<std::int32_t>::max()) {
+    throw Malformed(fmt::format("{} is no id", j.dump()));
+  }
+  return static_cast<std::int32_t>(id);
+}
+
 bool is_end(const Json& j) { return j.value("contact", "graze") == "end"; }
 
 Generator generator_from(const Json& j) {
   const std::string type = j.at("type").get<std::string>();
+  if (type != "vertex" && type != "edge" && type != "face") {
+    throw Malformed(fmt::format("unknown kind of generator '{}'", type));
+  }
   const auto kind = type == "vertex" ? GeneratorKind::Vertex
                     : type == "edge" ? GeneratorKind::Edge
                                      : GeneratorKind::Face;
-  return {kind, j.at("id").get<std::int32_t>()};
+  return {kind, id_from(j.at("id"))};
 }
 
 Point point_from(const Json& j) {
@@ -140,7 +164,7 @@ NodeKind kind_from(const std::string& name) {
     node.kind = kind;
     if (kind_name(node) == name.substr(0, name.find("_self"))) return kind;
   }
-  throw InvalidInput("unknown kind of node " + name);
+  throw Malformed(fmt::format("unknown kind of node '{}'", name));
 }
 
 /// What arcs of all kinds have.
@@ -149,16 +173,51 @@ void read_arc(const Json& j, Arc& arc) {
   arc.self = j.at("kind").get<std::string>().ends_with("_self");
   for (const int i : {0, 1}) {
     arc.range[i] = j.at("range").at(i).get<double>();
-    arc.nodes[i] = j.at("nodes").at(i).get<std::uint32_t>();
+    arc.nodes[i] = static_cast<std::uint32_t>(id_from(j.at("nodes").at(i)));
   }
+  if (!(0 <= arc.range[0] && arc.range[0] <= arc.range[1] && arc.range[1] <= 1)) {
+    throw Malformed(fmt::format("{} is no range", j["range"].dump()));
+  }
+}
+
+Simplified simplified_from(const Json& j) {
+  Simplified simplified;
+  simplified.feature_size = j.at("feature_size").get<double>();
+  for (const Json& id : j.at("edge_ids")) simplified.edges.push_back(id_from(id));
+  for (const Json& id : j.at("vertex_ids")) simplified.vertices.push_back(id_from(id));
+  for (const Json& id : j.at("object_ids")) simplified.objects.push_back(id_from(id));
+  for (const Json& arc : j.at("arc_list")) {
+    simplified.arcs.push_back(
+        {id_from(arc.at("vertex")),
+         id_from(arc.at("edge")),
+         {arc.at("range").at(0).get<double>(), arc.at("range").at(1).get<double>()}});
+  }
+  return simplified;
+}
+
+/// How far the building had come.
+void read_progress(const Json& j, Skeleton& skeleton) {
+  skeleton.complete = j.at("complete").get<bool>();
+  skeleton.stopped_by = stopped_by_from(j.value("stopped_by", "nothing"));
+  skeleton.vertices_done = j.at("vertices_done").get<std::size_t>();
+  skeleton.vertices_asked = j.at("vertices_asked").get<std::size_t>();
+  skeleton.edges_done = j.at("edges_done").get<std::size_t>();
+  skeleton.edges_asked = j.at("edges_asked").get<std::size_t>();
+  skeleton.facets_done = j.at("facets_done").get<std::size_t>();
+  skeleton.facets_asked = j.at("facets_asked").get<std::size_t>();
+  skeleton.simplified = simplified_from(j.at("simplified"));
 }
 
 StoredSkeleton skeleton_from(const Json& j) {
   StoredSkeleton stored;
   stored.scene_file = unescaped_bytes(j.at("scene").at("file").get<std::string>());
+  stored.fingerprint = j.at("scene").at("fingerprint").get<std::string>();
+  stored.options = j.at("options");
+  stored.perturb = stored.options.value("perturb", 0.0);
+  stored.seed = stored.options.value("seed", std::uint64_t{1});
   Skeleton& skeleton = stored.skeleton;
-  skeleton.complete = j.at("complete").get<bool>();
-  if (j.contains("options") && j["options"].value("events", "solid") == "polygon") {
+  read_progress(j, skeleton);
+  if (stored.options.at("events").get<std::string>() == "polygon") {
     skeleton.events = EventMode::Polygon;
   }
   for (const Json& n : j.at("list").at("nodes")) {
@@ -183,15 +242,15 @@ StoredSkeleton skeleton_from(const Json& j) {
     if (a.contains("edges")) {
       EeeArc arc{};
       for (const int i : {0, 1, 2}) {
-        arc.edges[i] = a.at("edges").at(i).at("id").get<std::int32_t>();
+        arc.edges[i] = id_from(a.at("edges").at(i).at("id"));
       }
       arc.ends = {is_end(a.at("edges").at(0)), is_end(a.at("edges").at(2))};
       read_arc(a, arc);
       skeleton.eee_arcs.push_back(arc);
     } else {
       SkeletonArc arc{};
-      arc.vertex = a.at("vertex").at("id").get<std::int32_t>();
-      arc.edge = a.at("edge").at("id").get<std::int32_t>();
+      arc.vertex = id_from(a.at("vertex").at("id"));
+      arc.edge = id_from(a.at("edge").at("id"));
       arc.ends = {is_end(a.at("vertex")), is_end(a.at("edge"))};
       read_arc(a, arc);
       skeleton.arcs.push_back(arc);
@@ -200,26 +259,96 @@ StoredSkeleton skeleton_from(const Json& j) {
   return stored;
 }
 
+// Before the checksum of all bytes in front of this text; behind it, the file ends.
+constexpr std::string_view kChecksumKey = ",\n \"checksum\": \"";
+constexpr std::string_view kEnd = "\"\n}\n";
+
+/// Passes text on to a stream and keeps its checksum.
+class SummedText {
+ public:
+  explicit SummedText(std::ostream& stream) : stream_(stream) {}
+  SummedText& operator<<(std::string_view text) {
+    sum_.add(text);
+    stream_ << text;
+    return *this;
+  }
+  [[nodiscard]] std::string sum() const { return sum_.text(); }
+
+ private:
+  std::ostream& stream_;
+  Checksum sum_;
+};
+
+/// Refuses what is not, byte for byte, a file that write_skeleton_json wrote.
+void check_whole(const std::string& path, std::string_view text) {
+  const auto refuse = [&](std::string_view why) {
+    throw InvalidInput(fmt::format("{}: {}", path, why));
+  };
+  constexpr std::string_view kHead = "\"command\": \"skeleton\"";
+  if (text.substr(0, 100).find(kHead) == std::string_view::npos) {
+    refuse("not a saved skeleton");
+  }
+  const std::size_t key = text.rfind(kChecksumKey);
+  if (key == std::string_view::npos || !text.ends_with(kEnd)) {
+    refuse(
+        "has no checksum at its end: it was cut off, or saved by an earlier version; "
+        "build it again with sightline skeleton SCENE -o FILE");
+  }
+  Checksum sum;
+  sum.add(text.substr(0, key));
+  std::string_view written = text.substr(key + kChecksumKey.size());
+  written.remove_suffix(kEnd.size());
+  if (written != sum.text()) {
+    refuse(
+        "was changed since it was saved: its checksum is wrong; build it again with "
+        "sightline skeleton SCENE -o FILE");
+  }
+}
+
 }  // namespace
+
+std::string fingerprint(const Scene& scene) {
+  Checksum sum;
+  const PolygonSoup& soup = scene.soup();
+  sum.add(std::uint64_t{soup.vertices.size()});
+  for (const Point& p : soup.vertices) {
+    for (const double x : {p.x(), p.y(), p.z()}) sum.add(x);
+  }
+  const auto add_ids = [&](const std::vector<int>& ids) {
+    sum.add(std::uint64_t{ids.size()});
+    for (const int id : ids) sum.add(static_cast<std::uint64_t>(id));
+  };
+  sum.add(std::uint64_t{soup.polygons.size()});
+  for (const std::vector<int>& polygon : soup.polygons) add_ids(polygon);
+  for (const PolygonSoup::Group& group : soup.groups) {
+    sum.add(std::uint64_t{group.name.size()});
+    sum.add(group.name);
+    add_ids(group.faces);
+  }
+  return sum.text();
+}
 
 void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
                          const Skeleton& skeleton, const SkeletonLines* lines) {
-  std::string text = json_text(head, 1);
+  Json first = head;
+  first["scene"]["fingerprint"] = fingerprint(scene);
+  SummedText out(stream);
+  std::string text = json_text(first, 1);
   text.erase(text.rfind('}'));  // leave the object open
   text.erase(text.find_last_not_of("\n ") + 1);
-  stream << text << ",\n \"list\": {\n  \"nodes\": [";
+  out << text << ",\n \"list\": {\n  \"nodes\": [";
   for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
     Json node = node_json(scene, skeleton, i);
     if (lines != nullptr) {
       add_line(node, *lines, skeleton, skeleton.nodes[i]);
       add_far_ends(node, scene, far_ends(scene, *lines, skeleton, skeleton.nodes[i]));
     }
-    stream << (i == 0 ? "\n   " : ",\n   ") << json_text(node);
+    out << (i == 0 ? "\n   " : ",\n   ") << json_text(node);
   }
-  stream << "\n  ],\n  \"arcs\": [";
+  out << "\n  ],\n  \"arcs\": [";
   const char* separator = "\n   ";
   const auto add_arc = [&](const Json& arc) {
-    stream << separator << json_text(arc);
+    out << separator << json_text(arc);
     separator = ",\n   ";
   };
   for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
@@ -232,25 +361,33 @@ void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& sc
     if (lines != nullptr) add_line(arc, scene, *lines, skeleton.eee_arcs[i]);
     add_arc(arc);
   }
-  stream << "\n  ]\n }\n}\n";
+  out << "\n  ]\n }";
+  stream << kChecksumKey << out.sum() << kEnd;
 }
 
 StoredSkeleton read_skeleton_json(const std::string& path) {
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InvalidInput(path + ": cannot be read");
+  const std::string text = read_whole(path);
+  check_whole(path, text);
   try {
-    return skeleton_from(Json::parse(stream));
+    StoredSkeleton stored = skeleton_from(Json::parse(text));
+    stored.file = path;
+    return stored;
   } catch (const nlohmann::json::exception& error) {
+    throw InvalidInput(fmt::format("{}: not a saved skeleton: {}", path, error.what()));
+  } catch (const Malformed& error) {
     throw InvalidInput(fmt::format("{}: not a saved skeleton: {}", path, error.what()));
   }
 }
 
 void check_fits(const StoredSkeleton& stored, const Scene& scene) {
   const auto require = [&](bool fits) {
-    if (!fits) {
-      throw InvalidInput("the saved skeleton does not belong to " + scene.soup().source);
-    }
+    if (fits) return;
+    throw InvalidInput(fmt::format(
+        "{}: was saved from another scene than {} (its coordinates, polygons or groups "
+        "are others); build it again with sightline skeleton SCENE -o FILE",
+        stored.file, scene.soup().source));
   };
+  require(stored.fingerprint == fingerprint(scene));
   const auto below = [](std::int64_t id, std::size_t size) {
     return id >= 0 && static_cast<std::size_t>(id) < size;
   };
@@ -258,7 +395,8 @@ void check_fits(const StoredSkeleton& stored, const Scene& scene) {
     const std::size_t size = g.kind == GeneratorKind::Vertex ? scene.points().size()
                              : g.kind == GeneratorKind::Edge ? scene.edges().size()
                                                              : scene.facets().size();
-    require(below(g.id, size));
+    // A flat side is an edge of a node that is no edge of the scene.
+    require(below(g.id, size) || (g.kind == GeneratorKind::Edge && g.id == -1));
   }
   const auto require_nodes = [&](const auto& arc) {
     for (const std::uint32_t n : arc.nodes) {
@@ -274,6 +412,10 @@ void check_fits(const StoredSkeleton& stored, const Scene& scene) {
     for (const int edge : arc.edges) require(below(edge, scene.edges().size()));
     require_nodes(arc);
   }
+  const Simplified& left_out = stored.skeleton.simplified;
+  for (const int e : left_out.edges) require(below(e, scene.edges().size()));
+  for (const int v : left_out.vertices) require(below(v, scene.points().size()));
+  for (const int o : left_out.objects) require(below(o, scene.objects().size()));
 }
 
 }  // namespace sightline::viewers

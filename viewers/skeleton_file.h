@@ -11,24 +11,38 @@
 
 namespace sightline::viewers {
 
-/// Writes `head` with one more key, "list": {"nodes": [...], "arcs": [...]}, one element
-/// at a time, so that no copy of it is held: EV arcs, then EEE arcs.  With lines, each
-/// element also has its "contacts" in order and its "free_segment" (null where
-/// SkeletonLines gives none, and then without contacts), an arc also the "line" at the
-/// middle of its range and its "pieces".
+/// A Checksum of the scene's coordinates, polygons and groups (names and faces), in
+/// order.
+[[nodiscard]] std::string fingerprint(const Scene& scene);
+
+/// Writes `head`, with the scene's "fingerprint" under "scene", and two more keys:
+/// "list": {"nodes": [...], "arcs": [...]}, one element at a time, so that no copy of it
+/// is held (EV arcs, then EEE arcs), and "checksum", of all that is before it.  With
+/// lines, each element also has its "contacts" in order and its "free_segment" (null
+/// where SkeletonLines gives none, and then without contacts), an arc also the "line" at
+/// the middle of its range and its "pieces".
 void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
                          const Skeleton& skeleton, const SkeletonLines* lines);
 
-/// A skeleton read back, with the name of the scene it was made from.
+/// A skeleton read back.
 struct StoredSkeleton {
-  std::string scene_file;
+  std::string file;         ///< it was read from
+  std::string scene_file;   ///< the scene it was made from, as that was named
+  std::string fingerprint;  ///< of that scene
+  Json options;             ///< what was asked of it, as the file says
+  /// The size and the seed by which the scene was perturbed first; 0: not at all.
+  double perturb = 0;
+  std::uint64_t seed = 1;
   Skeleton skeleton;
 };
 
-/// Reads what write_skeleton_json wrote.  Throws InvalidInput.
+/// Reads what write_skeleton_json wrote, of a head that has "options" and the keys of
+/// skeleton_json and, with ids, simplified_json.  Throws InvalidInput when the file is
+/// none, has no checksum or a wrong one, or says what no skeleton does.
 [[nodiscard]] StoredSkeleton read_skeleton_json(const std::string& path);
 
-/// Throws InvalidInput when an id of the skeleton is not one of the scene.
+/// Throws InvalidInput when the skeleton is of another scene, by its fingerprint, or an
+/// id of it is not one of the scene.
 void check_fits(const StoredSkeleton& stored, const Scene& scene);
 
 }  // namespace sightline::viewers

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "linespace/mesh_io.h"
+#include "linespace/perturb.h"
 #include "viewers/clip.h"
 #include "viewers/command_line.h"
 #include "viewers/drawing.h"
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 
 struct ViewCommandOptions {
   std::string what;
+  std::string scene;
   std::string png;
   std::string up;
   std::vector<int> size{1400, 980};
@@ -52,7 +54,20 @@ struct Shown {
   std::vector<Stroke> strokes;
 };
 
-Shown read_shown(const fs::path& file, Outputs& outputs) {
+/// Where the scene of a saved skeleton is: where the file says, or else beside the file.
+std::string scene_file_of(const StoredSkeleton& stored) {
+  const fs::path beside = fs::path(stored.file).parent_path();
+  for (const fs::path& candidate :
+       {fs::path(stored.scene_file), beside / stored.scene_file,
+        beside / fs::path(stored.scene_file).filename()}) {
+    if (fs::is_regular_file(candidate)) return candidate.string();
+  }
+  throw InvalidInput(fmt::format("{}: its scene {} is not there; name it with --scene",
+                                 stored.file, stored.scene_file));
+}
+
+Shown read_shown(const ViewCommandOptions& options, const fs::path& file,
+                 Outputs& outputs) {
   const std::string extension = file.extension();
   if (extension == ".vtm" || extension == ".vtp") {
     VtkPicture picture = read_vtk(file);
@@ -62,8 +77,11 @@ Shown read_shown(const fs::path& file, Outputs& outputs) {
   }
   if (extension == ".json") {
     StoredSkeleton stored = read_skeleton_json(file.string());
-    outputs.protect(stored.scene_file);
-    Scene scene(read_mesh(stored.scene_file));
+    const std::string name =
+        options.scene.empty() ? scene_file_of(stored) : options.scene;
+    outputs.protect(name);
+    Scene scene(read_mesh(name));
+    if (stored.perturb > 0) scene = Scene(perturbed(scene, stored.perturb, stored.seed));
     check_fits(stored, scene);
     return {std::move(scene), std::move(stored.skeleton), {}, {}};
   }
@@ -241,7 +259,7 @@ ExitStatus run(const ViewCommandOptions& options) {
   outputs.protect(file.string());
   OutputFile* const png =
       options.png.empty() ? nullptr : &outputs.add("--png", options.png);
-  const Shown shown = read_shown(file, outputs);
+  const Shown shown = read_shown(options, file, outputs);
   if (png != nullptr) {
     write_picture(options, shown, *png);
   } else {
@@ -261,6 +279,12 @@ Command add_view_command(CLI::App& app) {
                    "a folder of analyse or --vtk, a .vtm or .vtp of ours, a saved "
                    "skeleton (.json) or a mesh file")
       ->required();
+  command
+      ->add_option(
+          "--scene", options->scene,
+          "the scene of a saved skeleton, where it is neither where that says nor "
+          "beside it")
+      ->type_name("SCENE");
   CLI::Option* png =
       command
           ->add_option("--png", options->png,

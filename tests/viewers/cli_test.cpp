@@ -730,7 +730,7 @@ TEST_F(Questions, BadFilesAreRefusedByElement) {
   refused("", "not JSON");
   refused("[]", "expected an object");
   refused("{}", "has neither");
-  expect_refused({"transversals", (folder_ / "io").string()}, "it is not a file");
+  expect_refused({"transversals", (folder_ / "io").string()}, "is a folder");
   expect_refused({"transversals", (folder_ / "none.json").string()}, "none.json");
   expect_refused({"transversals"}, "FILE");
 }

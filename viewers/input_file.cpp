@@ -1,0 +1,69 @@
+#include "viewers/input_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "linespace/scene.h"
+
+namespace sightline::viewers {
+namespace {
+
+[[noreturn]] void refuse(const std::string& file, const std::string& why) {
+  throw InvalidInput(
+      fmt::format("{}: {}", file == kStandardInput ? "standard input" : file, why));
+}
+
+/// A file descriptor, closed at the end; standard input stays open.
+class Descriptor {
+ public:
+  explicit Descriptor(const std::string& file)
+      : fd_(file == kStandardInput ? STDIN_FILENO
+                                   : ::open(file.c_str(), O_RDONLY | O_CLOEXEC)) {}
+  ~Descriptor() {
+    if (fd_ > STDIN_FILENO) ::close(fd_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  [[nodiscard]] int number() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+std::string read_whole(const std::string& file, std::size_t most) {
+  const Descriptor descriptor(file);
+  struct stat status {};
+  if (descriptor.number() < 0 || ::fstat(descriptor.number(), &status) != 0) {
+    refuse(file, errno == ENOENT
+                     ? "no such file"
+                     : fmt::format("cannot be read: {}", std::strerror(errno)));
+  }
+  if (S_ISDIR(status.st_mode)) refuse(file, "is a folder");
+  std::string bytes;
+  for (;;) {
+    constexpr std::size_t kBlock = 1 << 20;
+    const std::size_t size = bytes.size();
+    // One block more than the file says it has, so that its end is seen.
+    bytes.resize(std::max<std::size_t>(
+        size + kBlock, S_ISREG(status.st_mode) && size == 0 ? status.st_size + 1 : 0));
+    const ssize_t n = ::read(descriptor.number(), bytes.data() + size,
+                             std::min(bytes.size() - size, std::size_t{1} << 30));
+    bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) refuse(file, fmt::format("cannot be read: {}", std::strerror(errno)));
+    if (bytes.size() > most) {
+      refuse(file, fmt::format("is larger than {} MiB", most >> 20));
+    }
+    if (n == 0) return bytes;
+  }
+}
+
+}  // namespace sightline::viewers

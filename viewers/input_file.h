@@ -1,0 +1,20 @@
+// Files that are read whole, and why they cannot be.
+
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <string>
+
+namespace sightline::viewers {
+
+/// The name that stands for standard input.
+inline constexpr const char* kStandardInput = "-";
+
+/// The bytes of a file, or of standard input.  Throws InvalidInput, "FILE: WHY", when
+/// there is no such file, it is a folder, it may not or cannot be read, or it has more
+/// than `most` bytes.
+[[nodiscard]] std::string read_whole(
+    const std::string& file, std::size_t most = std::numeric_limits<std::size_t>::max());
+
+}  // namespace sightline::viewers
