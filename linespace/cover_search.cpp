@@ -2,7 +2,9 @@
 #include <bit>
 #include <cmath>
 #include <random>
+#include <set>
 
+#include "linespace/bilinear_cell_internal.h"
 #include "linespace/cover_cell_internal.h"
 #include "linespace/cover_search_internal.h"
 #include "linespace/cover_writer_internal.h"
@@ -21,6 +23,12 @@ constexpr double kEnough = -0x1p-30;
 // From this many halvings on, a cell with no segment to be found may well lie within one
 // blocker.
 constexpr int kSmall = 6;
+// Cells with a smaller margin are probed in exact numbers: there may be a segment between
+// two edges that doubles hardly tell apart.
+constexpr double kThin = 0x1p-12;
+// From this many halvings on, cells are decided in exact numbers.  That leaves no proof
+// for a cover: when one is wanted, other proofs are given more time.
+constexpr int kDecided = 8, kDecidedWithCover = 24;
 // Weights of corners are multiples of 2^-halvings, and so exact in doubles.
 constexpr int kMostHalvings = 50;
 
@@ -42,8 +50,14 @@ class Search {
     result.outcome = free                    ? SearchOutcome::Free
                      : counts_.undecided > 0 ? SearchOutcome::Undecided
                                              : SearchOutcome::Covered;
+    result.out_of_effort = out_of_effort_ && !free;
     if (free) result.segment = found_;
-    if (result.outcome == SearchOutcome::Covered) result.cover = writer_.take();
+    result.stuck_between = std::move(stuck_between_);
+    result.stuck_width = stuck_width_;
+    if (result.outcome == SearchOutcome::Covered && certified_) {
+      result.cover = writer_.take();
+    }
+    result.certified = certified_;
     return result;
   }
 
@@ -114,9 +128,11 @@ class Search {
   // True when a free segment was found; otherwise the cell is covered or given up.
   bool cell(Domain& d, Bits samples) {
     ++counts_.cells;
-    if (stopped_ || ((counts_.cells & 63) == 0 && terms_.stop && terms_.stop())) {
+    out_of_effort_ |= counts_.cells > terms_.most_cells;
+    if (stopped_ || out_of_effort_ ||
+        ((counts_.cells & 63) == 0 && terms_.stop && terms_.stop())) {
       stopped_ = true;
-      ++counts_.undecided;
+      give_up(std::numeric_limits<double>::infinity());
       return false;
     }
     LocalPoint start;
@@ -249,8 +265,7 @@ class Search {
 
   int exact_blocker(const SightPoint& s) const {
     for (std::size_t b = 0; b < space_.blockers().size(); ++b) {
-      if (space_.blocks(space_.blockers()[b], s.alpha, s.beta))
-        return static_cast<int>(b);
+      if (space_.blocks(space_.blockers()[b], s)) return static_cast<int>(b);
     }
     return -1;
   }
@@ -354,6 +369,7 @@ class Search {
 
   // A cell in which no segment was found, nor a proof that there is none.
   bool divide(Domain& d) {
+    const double margin = emptiness_.margin();
     if (d.halvings() >= kSmall) {
       const Verdict around = judge_middle(d);
       if (around.free) return true;
@@ -363,7 +379,55 @@ class Search {
       }
     }
     if (emptiness_.at_a_corner(d) || emptiness_.second_order(d)) return false;
+    if (const auto known = decide_exactly(d, margin)) return *known;
     return halve(d);
+  }
+
+  // What cell() returns; nullopt where that would cost more than halving.
+  std::optional<bool> decide_exactly(Domain& d, double margin) {
+    if (terms_.precision == Precision::Double) return std::nullopt;
+    const int halvings = d.halvings();
+    const bool decided = halvings >= (terms_.keep_cover ? kDecidedWithCover : kDecided);
+    if (!decided && margin > kThin) return std::nullopt;
+    std::vector<PositiveForm> forms;
+    for (const Step& step : path_.steps) {
+      if (domains_.live(d, step.form).constant != 0) continue;
+      PositiveForm& form = forms.emplace_back(domains_.exact_values(d, step.form));
+      for (Rational& x : form) x *= int{step.sign};
+    }
+    if (const auto s = probe_cell(forms)) return settle(d, *s);
+    if (!decided) return std::nullopt;
+    ++counts_.exact_cells;
+    const int most_curves = halvings < 16 ? 24 : halvings < 32 ? 96 : 10'000;
+    const CellDecision decision = decide_cell(forms, most_curves, terms_.stop);
+    if (decision.segment) return settle(d, *decision.segment);
+    if (decision.outcome == CellDecision::Outcome::TooDear) return std::nullopt;
+    certified_ = false;
+    return false;
+  }
+
+  // A segment of the cell: it is free, or some blocker is to be subtracted.
+  std::optional<bool> settle(Domain& d, const ExactSegment& local) {
+    std::array<ExactWeights, 2> whole;
+    SightPoint s;
+    for (int end = 0; end < 2; ++end) {
+      const std::array<Weights, 3>& corners = end == 0 ? d.from : d.to;
+      for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+          whole[end][i] += local[end][j] * Rational(corners[j][i]);
+        }
+        (end == 0 ? s.alpha : s.beta)[i] = static_cast<double>(whole[end][i]);
+      }
+    }
+    s.exact = std::make_shared<const std::array<ExactWeights, 2>>(std::move(whole));
+    int b = exact_blocker(s);
+    if (b < 0) {
+      if (confirmed(s)) return true;
+      index_pool();
+      b = exact_blocker(s);
+    }
+    if (b < 0) return std::nullopt;  // refused for another reason
+    return subtract(d, b, 0);
   }
 
   // Whatever the cell is, all of the domain around it may be blocked; or its middle free.
@@ -384,6 +448,16 @@ class Search {
     return known();
   }
 
+  void give_up(double width) {
+    if (counts_.undecided++ > 0) return;
+    stuck_width_ = width;
+    std::set<int> pieces;
+    for (const Step& step : path_.steps) {
+      pieces.insert(space_.forms()[step.form].name.piece);
+    }
+    stuck_between_.assign(pieces.begin(), pieces.end());
+  }
+
   bool halve(Domain& d) {
     const auto longest = [](const Triangle& t, const std::array<Weights, 3>& weights) {
       const Triangle p = corners(t, weights);
@@ -397,7 +471,7 @@ class Search {
     const auto [to_length, to_side] = longest(space_.b(), d.to);
     const bool from = from_length >= to_length;
     if ((from ? d.halvings_from : d.halvings_to) >= kMostHalvings) {
-      ++counts_.undecided;
+      give_up(std::max(from_length, to_length));
       return false;
     }
     ++counts_.halvings;
@@ -423,7 +497,10 @@ class Search {
   Emptiness emptiness_;
   Game game_;
   SightPoint found_{};
-  bool stopped_ = false;
+  bool stopped_ = false, out_of_effort_ = false;
+  std::vector<int> stuck_between_;
+  double stuck_width_ = std::numeric_limits<double>::infinity();
+  bool certified_ = true;  // each cell that was found empty has a proof for the cover
 };
 
 }  // namespace

@@ -20,6 +20,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -28,11 +29,6 @@
 #include "linespace/sight_space_internal.h"
 
 namespace sightline::internal {
-
-/// A segment of a sight space, by its ends' weights.  Multiples of 2^-52, sum exactly 1.
-struct SightPoint {
-  Weights alpha, beta;
-};
 
 /// What a step of the cover does; children follow their parent in preorder.
 struct CoverNode {
@@ -78,6 +74,8 @@ struct SearchTerms {
   /// tried first.
   std::vector<SightPoint> pool;
   bool keep_cover = false;
+  /// The search ends, undecided, when it has looked at more cells.
+  std::int64_t most_cells = std::numeric_limits<std::int64_t>::max();
   /// Asked now and then; true ends the search.
   std::function<bool()> stop;
   /// Has the last word on a segment that no known blocker blocks.  May add blockers to
@@ -89,8 +87,17 @@ enum class SearchOutcome { Free, Covered, Undecided };
 
 struct SearchResult {
   SearchOutcome outcome;
+  /// Undecided: because it had looked at `most_cells`.
+  bool out_of_effort = false;
+  /// Undecided: the pieces whose edges and planes bound the first cell that was given up.
+  std::vector<int> stuck_between;
+  /// The same cell's width, as the longer of its two triangles' longest sides; infinite
+  /// where the search was ended from outside.
+  double stuck_width = std::numeric_limits<double>::infinity();
   std::optional<SightPoint> segment;
-  Cover cover;  ///< when kept and covered
+  Cover cover;  ///< when kept, covered and certified
+  /// Covered: no cell was decided in a way that the cover cannot hold.
+  bool certified = true;
   VisibilityCost counts;
 };
 

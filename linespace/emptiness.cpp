@@ -49,6 +49,7 @@ class Emptiness::Proofs {
     }
     if (rows_.empty()) {
       start.alpha = start.beta = {1.0 / 3, 1.0 / 3, 1.0 / 3};
+      margin_ = 1;
       return false;
     }
     ++counts_.games;
@@ -59,8 +60,10 @@ class Emptiness::Proofs {
       if (proves_empty(d) || exactly_empty(d, gamma)) return true;
     }
     start = marginals(gamma);
+    margin_ = game_.value();
     return false;
   }
+  [[nodiscard]] double margin() const { return margin_; }
 
   // Three lines of the path through one point rule each other out: outlines are full of
   // such corners, and there halving never ends.
@@ -459,6 +462,7 @@ class Emptiness::Proofs {
   CoverWriter& writer_;
   Precision precision_;
   VisibilityCost& counts_;
+  double margin_ = 0;
   Game game_;
   SecondGame second_game_;
   std::vector<CoverShare> rows_;
@@ -472,6 +476,7 @@ Emptiness::~Emptiness() = default;
 bool Emptiness::first_order(Domain& d, LocalPoint& start) {
   return proofs_->first_order(d, start);
 }
+double Emptiness::margin() const { return proofs_->margin(); }
 bool Emptiness::at_a_corner(Domain& d) { return proofs_->at_a_corner(d); }
 bool Emptiness::second_order(Domain& d) { return proofs_->second_order(d); }
 

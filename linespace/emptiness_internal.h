@@ -29,6 +29,8 @@ class Emptiness {
   /// By linear inequalities at the corner pairs.  False: `start` is where they have the
   /// largest margin.
   [[nodiscard]] bool first_order(Domain& d, LocalPoint& start);
+  /// That margin, when first_order was asked last: each form counts by its largest value.
+  [[nodiscard]] double margin() const;
   /// By three lines of the path through one point: outlines are full of such corners, and
   /// there halving never ends.
   [[nodiscard]] bool at_a_corner(Domain& d);

@@ -5,44 +5,41 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
+#include <cmath>
 #include <mutex>
 
 #include "linespace/occluder_source_internal.h"
 #include "linespace/polygon_visibility_internal.h"
 #include "linespace/scene_internal.h"
+#include "linespace/unit_scale_internal.h"
 
 namespace sightline {
+
+using namespace internal;
+
 namespace {
 
-std::vector<Polygon> polygons_of(const Scene& scene) {
+Polygon polygon_of(const Scene& scene, int face) {
+  Polygon polygon;
+  for (const int p : scene.face_points(face)) polygon.push_back(scene.point(p));
+  return polygon;
+}
+
+std::vector<Polygon> scaled_polygons(const Scene& scene, int exponent) {
   std::vector<Polygon> polygons(scene.faces().size());
   for (std::size_t f = 0; f < polygons.size(); ++f) {
     for (const int p : scene.face_points(static_cast<int>(f))) {
-      polygons[f].push_back(scene.point(p));
+      polygons[f].push_back(scaled(scene.point(p), exponent));
     }
   }
   return polygons;
 }
 
-}  // namespace
-
-using namespace internal;
-
-struct FaceVisibility::Impl {
-  const Scene& scene;
-  OccluderSet faces;
-
-  explicit Impl(const Scene& s) : scene(s), faces(polygons_of(s)) {}
-
-  void check(int face) const {
-    if (face < 0 || face >= static_cast<int>(scene.faces().size())) {
-      throw InvalidInput("there is no face " + std::to_string(face));
-    }
-  }
-};
-
-namespace {
+int scale_of(const Scene& scene) {
+  UnitScale scale;
+  scale.add(scene.points());
+  return scale.exponent();
+}
 
 bool in_one_plane(const Scene& scene, int a, int b) {
   const auto [u, v, w] = plane_points(scene, a);
@@ -51,28 +48,105 @@ bool in_one_plane(const Scene& scene, int a, int b) {
   });
 }
 
+/// What a pair may cost in one pass.
+struct Effort {
+  int samples;
+  bool samples_only;
+  std::int64_t cells;
+};
+
+/// The passes over the pairs: a few samples; then all of them and a search that may look
+/// at more cells each time.
+Effort effort_of_pass(int pass, const VisibilityRequest& request) {
+  constexpr int kFirstSamples = 64;
+  constexpr std::int64_t kFirstCells = 256;
+  if (pass == 0) return {std::min(kFirstSamples, request.samples), true, 0};
+  // 16 times as many each time; from pass 15 on there is no limit.
+  const std::int64_t cells = pass < 15 ? kFirstCells << (4 * (pass - 1))
+                                       : std::numeric_limits<std::int64_t>::max();
+  return {request.samples, false, cells};
+}
+
+}  // namespace
+
+struct FaceVisibility::Impl {
+  const Scene& scene;
+  int scaled_by;
+  OccluderSet faces;  // times 2^scaled_by
+
+  explicit Impl(const Scene& s)
+      : scene(s), scaled_by(scale_of(s)), faces(scaled_polygons(s, scaled_by)) {}
+
+  void check(int face) const {
+    if (face < 0 || face >= static_cast<int>(scene.faces().size())) {
+      throw InvalidInput("there is no face " + std::to_string(face));
+    }
+  }
+
+  struct PairDecision {
+    FacePairAnswer pair;
+    bool out_of_effort = false;
+  };
+  PairDecision decide_pair(int a, int b, std::vector<int>& recent, const Effort& effort,
+                           const VisibilityRequest& request,
+                           const std::function<bool()>& stop) const;
+  [[nodiscard]] bool hidden_by_own_solid(int a, int b) const;
+};
+
+// Face a is one of a convex solid that b stays clear of, and b is behind a's plane: all
+// segments go into the solid and leave it through another of its faces.
+bool FaceVisibility::Impl::hidden_by_own_solid(int a, int b) const {
+  const Object& solid = scene.objects()[scene.faces()[a].object];
+  if (!solid.convex) return false;
+  const auto [u, v, w] = plane_points(scene, a);
+  const bool behind = std::ranges::all_of(scene.face_points(b), [&](int p) {
+    return orient3d(u, v, w, scene.point(p)) != Sign::Positive;
+  });
+  if (!behind) return false;
+  // A face's plane with all of b in front: the solid does not reach to b.
+  return std::ranges::any_of(solid.faces, [&](int f) {
+    const auto [x, y, z] = plane_points(scene, f);
+    return std::ranges::all_of(scene.face_points(b), [&](int p) {
+      return orient3d(x, y, z, scene.point(p)) == Sign::Positive;
+    });
+  });
+}
+
 // `recent`: what was found for the last target of the same source is tried first.
-FacePairAnswer decide_pair(const Scene& scene, const OccluderSet& faces, int a, int b,
-                           std::vector<int>& recent, const VisibilityRequest& request) {
+FaceVisibility::Impl::PairDecision FaceVisibility::Impl::decide_pair(
+    int a, int b, std::vector<int>& recent, const Effort& effort,
+    const VisibilityRequest& request, const std::function<bool()>& stop) const {
   constexpr std::size_t kRemembered = 64;
-  FacePairAnswer pair{a, b, {}, {}};
+  PairDecision result{{a, b, {}, {}}};
+  FacePairAnswer& pair = result.pair;
   if (in_one_plane(scene, a, b)) {
     pair.answer.verdict = Verdict::Hidden;
-    return pair;
+    return result;
   }
   OccluderSource source(faces, OccluderSource::Numbers::AsFound, [&](int face) {
     return face == a || face == b || in_one_plane(scene, a, face) ||
            in_one_plane(scene, b, face);
   });
-  pair.answer = decide(fan(faces[a]), fan(faces[b]), {source, recent, {}}, request);
+  VisibilityRequest terms = request;
+  terms.samples = effort.samples;
+  terms.samples_only = effort.samples_only;
+  Decision decision = decide(fan(polygon_of(scene, a)), fan(polygon_of(scene, b)),
+                             {.source = source,
+                              .known = recent,
+                              .accept = {},
+                              .scaled_by = scaled_by,
+                              .most_cells = effort.cells,
+                              .stop = stop},
+                             terms);
+  pair.answer = std::move(decision.answer);
   pair.occluders = source.found();
+  name_occluders(pair.answer, [&](int piece) { return pair.occluders[piece]; });
   recent = pair.occluders;
   if (recent.size() > kRemembered)
     recent.erase(recent.begin(), recent.end() - kRemembered);
-  return pair;
+  result.out_of_effort = decision.out_of_effort;
+  return result;
 }
-
-}  // namespace
 
 FaceVisibility::FaceVisibility(const Scene& scene)
     : impl_(std::make_unique<Impl>(scene)) {}
@@ -85,83 +159,191 @@ FacePairAnswer FaceVisibility::between(int a, int b,
   impl_->check(b);
   const PrecisionScope precision(request.precision);
   std::vector<int> recent;
-  return decide_pair(impl_->scene, impl_->faces, a, b, recent, request);
+  const Effort all{request.samples, request.samples_only,
+                   std::numeric_limits<std::int64_t>::max()};
+  return impl_->decide_pair(a, b, recent, all, request, stop_of(request)).pair;
 }
 
-// A row of pairs, all those of one face of `as`, is one task, and what was found for one
-// pair helps the next.  Rows after the first visible pair are dropped.
+namespace {
+
+/// The pairs of two sets of faces, asked in passes.  In a pass all pairs of one face of
+/// `as`, a row, are one task, and what was found for one pair helps the next.
+template <class DecidePair, class IsHidden>
+class GroupQuestion {
+ public:
+  GroupQuestion(std::span<const int> as, std::span<const int> bs, bool all_pairs,
+                const VisibilityRequest& request, DecidePair decide_pair,
+                IsHidden is_hidden)
+      : as_(as),
+        bs_(bs),
+        all_pairs_(all_pairs),
+        request_(request),
+        decide_pair_(decide_pair),
+        is_hidden_(is_hidden),
+        over_(stop_of(request)),
+        open_(as.size() * bs.size(), kOpen),
+        recent_(as.size()) {}
+
+  GroupAnswer run() {
+    if (all_pairs_ || request_.samples_only) {
+      run_pass({request_.samples, request_.samples_only,
+                std::numeric_limits<std::int64_t>::max()});
+    } else {
+      for (; !answer_.visible && more_; ++pass_) {
+        run_pass(effort_of_pass(pass_, request_));
+      }
+    }
+    answer_.pairs_undecided = std::ranges::count(open_, kOpen);
+    if (answer_.visible && !all_pairs_) answer_.pairs_undecided = 0;
+    if (answer_.pairs_undecided == 0) answer_.undecided.reset();
+    answer_.verdict = answer_.visible               ? Verdict::Visible
+                      : answer_.pairs_undecided > 0 ? Verdict::Undecided
+                                                    : Verdict::Hidden;
+    return std::move(answer_);
+  }
+
+ private:
+  enum : std::uint8_t { kDone, kOpen };
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  struct Row {
+    std::vector<FacePairAnswer> pairs;  // all, or the visible one
+    VisibilityCost cost;
+    std::int64_t hidden = 0;
+    bool more = false;                        // a pair of it is worth another pass
+    std::optional<FacePairAnswer> undecided;  // the first
+  };
+
+  void run_pass(const Effort& effort) {
+    std::vector<Row> rows(as_.size());
+    std::atomic<std::size_t> done = 0;
+    tbb::task_arena arena(request_.threads > 0 ? request_.threads
+                                               : tbb::task_arena::automatic);
+    const auto task = [&](std::size_t i) {
+      const PrecisionScope precision(request_.precision);
+      const StageCounts before = thread_stage_counts();
+      run_row(i, effort, rows[i]);
+      const std::scoped_lock lock(mutex_);
+      count_predicates(before);
+      ++done;
+      if (request_.progress) {
+        request_.progress(
+            share(static_cast<double>(done) / static_cast<double>(as_.size())));
+      }
+    };
+    arena.execute([&] {
+      tbb::parallel_for(std::size_t{0}, as_.size(), task, tbb::simple_partitioner());
+    });
+    collect(rows);
+  }
+
+  // Of all the work, of which nobody knows how many passes it takes: each pass is half of
+  // what is left.
+  [[nodiscard]] double share(double of_pass) const {
+    return all_pairs_ ? of_pass : 1 - std::ldexp(1 - of_pass / 2, -pass_);
+  }
+
+  void run_row(std::size_t i, const Effort& effort, Row& row) {
+    for (std::size_t j = 0; j < bs_.size(); ++j) {
+      const std::size_t number = i * bs_.size() + j;
+      if (open_[number] != kOpen && !all_pairs_) continue;
+      if (!all_pairs_ && first_visible_ < number) return;
+      // What comes before a visible pair is finished, so that the pair that is told does
+      // not depend on the budget.
+      const auto stop = [&] {
+        const bool must_finish = first_visible_ != kNone;
+        return request_.stop.stop_requested() || (!must_finish && over_());
+      };
+      if (!all_pairs_ && is_hidden_(as_[i], bs_[j])) {
+        open_[number] = kDone;
+        ++row.hidden;
+        continue;
+      }
+      auto [pair, out_of_effort] =
+          decide_pair_(as_[i], bs_[j], recent_[i], effort, request_, stop);
+      row.cost += pair.answer.cost;
+      row.more |= out_of_effort || effort.samples_only;
+      row.hidden += pair.answer.verdict == Verdict::Hidden;
+      if (pair.answer.verdict != Verdict::Undecided) open_[number] = kDone;
+      if (pair.answer.verdict == Verdict::Undecided && !row.undecided) {
+        row.undecided = pair;
+      }
+      const bool visible = pair.answer.verdict == Verdict::Visible;
+      if (visible && !all_pairs_) note_visible(number);
+      if (visible || all_pairs_) row.pairs.push_back(std::move(pair));
+      if (visible && !all_pairs_) return;
+    }
+  }
+
+  void note_visible(std::size_t number) {
+    std::size_t known = first_visible_;
+    while (number < known && !first_visible_.compare_exchange_weak(known, number)) {
+    }
+  }
+
+  void count_predicates(const StageCounts& before) {
+    const StageCounts& after = thread_stage_counts();
+    answer_.predicates.by_double += after.by_double - before.by_double;
+    answer_.predicates.by_interval += after.by_interval - before.by_interval;
+    answer_.predicates.by_exact += after.by_exact - before.by_exact;
+  }
+
+  // Rows behind the first visible pair's were dropped or not, as it happened.
+  void collect(std::vector<Row>& rows) {
+    more_ = false;
+    answer_.undecided.reset();
+    for (Row& row : rows) {
+      if (row.undecided && !answer_.undecided) answer_.undecided = row.undecided;
+      answer_.cost += row.cost;
+      answer_.pairs_hidden += row.hidden;
+      more_ |= row.more;
+      for (FacePairAnswer& pair : row.pairs) {
+        if (pair.answer.verdict == Verdict::Visible && !answer_.visible) {
+          answer_.visible = pair;
+        }
+        if (all_pairs_) answer_.pairs.push_back(std::move(pair));
+      }
+      if (answer_.visible && !all_pairs_) return;
+    }
+    more_ &= !over_();
+  }
+
+  std::span<const int> as_, bs_;
+  bool all_pairs_;
+  const VisibilityRequest& request_;
+  DecidePair decide_pair_;
+  IsHidden is_hidden_;
+  std::function<bool()> over_;
+  std::vector<std::uint8_t> open_;        // per pair
+  std::vector<std::vector<int>> recent_;  // per row
+  std::atomic<std::size_t> first_visible_ = kNone;
+  int pass_ = 0;
+  bool more_ = true;
+  std::mutex mutex_;
+  GroupAnswer answer_;
+};
+
+}  // namespace
+
 GroupAnswer FaceVisibility::between(std::span<const int> as, std::span<const int> bs,
                                     bool all_pairs,
                                     const VisibilityRequest& request) const {
   for (const int a : as) impl_->check(a);
   for (const int b : bs) impl_->check(b);
-  const auto started = std::chrono::steady_clock::now();
-  GroupAnswer answer;
-  std::vector<std::vector<FacePairAnswer>> rows(as.size());
-  std::atomic<std::size_t> first_visible = as.size();
-  std::atomic<std::size_t> done = 0;
-  std::mutex mutex;
-  const auto row = [&](std::size_t i) {
-    const PrecisionScope precision(request.precision);
-    const StageCounts before = thread_stage_counts();
-    std::vector<int> recent;
-    for (const int b : bs) {
-      if (!all_pairs && first_visible < i) break;
-      VisibilityRequest left = request;
-      left.budget_seconds -=
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - started)
-              .count();
-      FacePairAnswer pair =
-          decide_pair(impl_->scene, impl_->faces, as[i], b, recent, left);
-      const bool visible = pair.answer.verdict == Verdict::Visible;
-      rows[i].push_back(std::move(pair));
-      if (visible && !all_pairs) {
-        std::size_t known = first_visible;
-        while (i < known && !first_visible.compare_exchange_weak(known, i)) {
-        }
-        break;
-      }
-    }
-    const std::scoped_lock lock(mutex);
-    const StageCounts& after = thread_stage_counts();
-    answer.predicates.by_double += after.by_double - before.by_double;
-    answer.predicates.by_interval += after.by_interval - before.by_interval;
-    answer.predicates.by_exact += after.by_exact - before.by_exact;
-    ++done;
-    if (request.progress) {
-      request.progress(static_cast<double>(done) / static_cast<double>(as.size()));
-    }
+  const auto decide_pair = [this](auto&&... terms) {
+    return impl_->decide_pair(std::forward<decltype(terms)>(terms)...);
   };
-  tbb::task_arena arena(request.threads > 0 ? request.threads
-                                            : tbb::task_arena::automatic);
-  arena.execute([&] {
-    tbb::parallel_for(std::size_t{0}, as.size(), row, tbb::simple_partitioner());
-  });
-  // Rows behind the first visible one were dropped or not, as it happened.
-  if (!all_pairs) rows.resize(std::min(rows.size(), first_visible + 1));
-  bool undecided = false;
-  for (std::vector<FacePairAnswer>& pairs : rows) {
-    for (FacePairAnswer& pair : pairs) {
-      answer.cost += pair.answer.cost;
-      if (pair.answer.verdict == Verdict::Visible && !answer.visible) {
-        answer.visible = pair;
-      }
-      answer.pairs_hidden += pair.answer.verdict == Verdict::Hidden;
-      answer.pairs_undecided += pair.answer.verdict == Verdict::Undecided;
-      undecided |= pair.answer.verdict == Verdict::Undecided;
-      if (all_pairs) answer.pairs.push_back(std::move(pair));
-    }
-  }
-  answer.verdict = answer.visible ? Verdict::Visible
-                   : undecided    ? Verdict::Undecided
-                                  : Verdict::Hidden;
-  return answer;
+  const auto is_hidden = [this](int a, int b) {
+    return impl_->hidden_by_own_solid(a, b) || impl_->hidden_by_own_solid(b, a);
+  };
+  return GroupQuestion(as, bs, all_pairs, request, decide_pair, is_hidden).run();
 }
 
 VisibilityQuestion FaceVisibility::question_of(const FacePairAnswer& pair) const {
-  VisibilityQuestion question{impl_->faces[pair.a], impl_->faces[pair.b], {}};
+  const Scene& scene = impl_->scene;
+  VisibilityQuestion question{polygon_of(scene, pair.a), polygon_of(scene, pair.b), {}};
   for (const int face : pair.occluders) {
-    question.occluders.push_back(impl_->faces[face]);
+    question.occluders.push_back(polygon_of(scene, face));
   }
   return question;
 }

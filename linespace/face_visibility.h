@@ -28,8 +28,12 @@ struct FacePairAnswer {
 struct GroupAnswer {
   /// Visible when some pair is, Hidden when all are hidden.
   Verdict verdict = Verdict::Undecided;
-  /// The first visible pair in order of the given faces, or nothing.
+  /// A visible pair, or nothing.  The pairs are asked in passes, each with more effort
+  /// than the one before; this is the first pair, in order of the given faces, that the
+  /// first successful pass finds visible.
   std::optional<FacePairAnswer> visible;
+  /// The first pair that is undecided, unless a visible one is told.
+  std::optional<FacePairAnswer> undecided;
   /// Every pair in order of the given faces, when asked for.
   std::vector<FacePairAnswer> pairs;
   std::int64_t pairs_hidden = 0, pairs_undecided = 0;
@@ -52,8 +56,9 @@ class FaceVisibility {
                                        const VisibilityRequest& request = {}) const;
 
   /// Whether some face of `as` sees some face of `bs`; with all_pairs every pair is
-  /// decided and listed.  On `request.threads` threads; the answer is the same for any
-  /// number.
+  /// decided and listed.  A visible pair ends the question: what the other pairs would
+  /// cost does not count.  On `request.threads` threads; the answer, and the pair that is
+  /// told, are the same for any number.
   [[nodiscard]] GroupAnswer between(std::span<const int> as, std::span<const int> bs,
                                     bool all_pairs,
                                     const VisibilityRequest& request = {}) const;

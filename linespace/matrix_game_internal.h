@@ -33,6 +33,7 @@ class MatrixGame {
   /// Entries must lie in [-1, 1].
   void add(const Row& row) { rows_.push_back(row); }
   [[nodiscard]] std::size_t size() const { return rows_.size(); }
+  [[nodiscard]] const Row& row(std::size_t i) const { return rows_[i]; }
 
   /// Requires a row.  Stops as soon as lambda proves a value below `enough`, which must
   /// be in (-1, 0]; value() is then an upper bound and gamma() not meaningful.

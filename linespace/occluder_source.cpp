@@ -235,7 +235,7 @@ int OccluderSource::find_blocker(SightSpace& space, const SightPoint& s) {
     const std::size_t before = space.blockers().size();
     add(space, i);
     for (std::size_t b = before; b < space.blockers().size(); ++b) {
-      if (!space.blocks(space.blockers()[b], s.alpha, s.beta)) continue;
+      if (!space.blocks(space.blockers()[b], s)) continue;
       add_patch(space, i, s);
       return i;
     }

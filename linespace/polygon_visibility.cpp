@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "linespace/exact_position_internal.h"
 #include "linespace/occluder_source_internal.h"
 #include "linespace/polygon_visibility_internal.h"
 #include "linespace/scene_internal.h"
 #include "linespace/segment_sampler_internal.h"
+#include "linespace/unit_scale_internal.h"
 
 namespace sightline {
 namespace internal {
@@ -101,10 +103,10 @@ CutQuestion cut(const VisibilityQuestion& question) {
   return result;
 }
 
-ExactPoint exact_mean(const Triangle& t, const Weights& w) {
+ExactPoint exact_mean(const Triangle& t, const ExactWeights& w) {
   ExactPoint p;
   for (int axis = 0; axis < 3; ++axis) {
-    for (int j = 0; j < 3; ++j) p[axis] += Rational(w[j]) * Rational(t[j][axis]);
+    for (int j = 0; j < 3; ++j) p[axis] += w[j] * Rational(t[j][axis]);
   }
   return p;
 }
@@ -119,14 +121,22 @@ std::vector<Triangle> fan(std::span<const Point> p) {
 
 namespace {
 
+Triangle scaled(const Triangle& t, int exponent) {
+  return {internal::scaled(t[0], exponent), internal::scaled(t[1], exponent),
+          internal::scaled(t[2], exponent)};
+}
+
 /// One pair of triangles: samples, then the search.
 class PairSearch {
  public:
   PairSearch(const Triangle& a, const Triangle& b, const PairTerms& terms,
              const VisibilityRequest& request)
-      : terms_(terms), request_(request), space_(a, b), sampler_(a, b, request.seed) {}
+      : terms_(terms),
+        request_(request),
+        space_(a, b, terms.scaled_by),
+        sampler_(a, b, request.seed) {}
 
-  SearchResult decide(const std::function<bool()>& stop) {
+  SearchResult decide() {
     for (const int i : terms_.source.start(terms_.known)) know(i);
     const std::optional<SightPoint> sampled = sample();
     SearchResult result;
@@ -141,7 +151,8 @@ class PairSearch {
                         .seed = request_.seed,
                         .pool = pool,
                         .keep_cover = request_.keep_cover,
-                        .stop = stop,
+                        .most_cells = terms_.most_cells,
+                        .stop = terms_.stop,
                         .confirm = [this](const SightPoint& s) { return confirm(s); }};
       result = search_cover(space_, terms);
     }
@@ -159,10 +170,9 @@ class PairSearch {
 
   std::optional<SightPoint> sample() {
     const SegmentSampler::Confirm confirm = [this](const SightPoint& s) {
-      return std::ranges::none_of(space_.blockers(),
-                                  [&](const Blocker& blocker) {
-                                    return space_.blocks(blocker, s.alpha, s.beta);
-                                  }) &&
+      return std::ranges::none_of(
+                 space_.blockers(),
+                 [&](const Blocker& blocker) { return space_.blocks(blocker, s); }) &&
              this->confirm(s);
     };
     if (request_.samples_only) return sampler_.spread(request_.samples, confirm);
@@ -179,7 +189,7 @@ class PairSearch {
     const auto blockers = space_.blockers().subspan(before);
     const auto s = std::ranges::find_if(pool, [&](const SightPoint& point) {
       return std::ranges::any_of(blockers, [&](const Blocker& blocker) {
-        return space_.blocks(blocker, point.alpha, point.beta);
+        return space_.blocks(blocker, point);
       });
     });
     if (s != pool.end()) terms_.source.add_patch(space_, i, *s);
@@ -202,29 +212,42 @@ class PairSearch {
 
 }  // namespace
 
-VisibilityAnswer decide(std::span<const Triangle> a, std::span<const Triangle> b,
-                        const PairTerms& terms, const VisibilityRequest& request) {
-  const auto started = std::chrono::steady_clock::now();
-  const auto stop = [&] {
+std::function<bool()> stop_of(const VisibilityRequest& request) {
+  return [started = std::chrono::steady_clock::now(), stop = request.stop,
+          budget = request.budget_seconds] {
     const std::chrono::duration<double> spent =
         std::chrono::steady_clock::now() - started;
-    return request.stop.stop_requested() || spent.count() > request.budget_seconds;
+    return stop.stop_requested() || spent.count() > budget;
   };
-  VisibilityAnswer answer;
+}
+
+Decision decide(std::span<const Triangle> a, std::span<const Triangle> b,
+                const PairTerms& terms, const VisibilityRequest& request) {
+  Decision decision;
+  VisibilityAnswer& answer = decision.answer;
   auto data = std::make_shared<VisibilityCover::Data>();
-  bool undecided = false;
+  bool undecided = false, certified = true;
   for (const Triangle& from : a) {
     for (const Triangle& to : b) {
-      PairSearch pair(from, to, terms, request);
-      SearchResult result = pair.decide(stop);
+      PairSearch pair(scaled(from, terms.scaled_by), scaled(to, terms.scaled_by), terms,
+                      request);
+      SearchResult result = pair.decide();
       answer.cost += result.counts;
       if (result.outcome == SearchOutcome::Free) {
+        const auto [alpha, beta] = weights_of(*result.segment);
         answer.verdict = Verdict::Visible;
-        answer.witness = {exact_position(exact_mean(from, result.segment->alpha)),
-                          exact_position(exact_mean(to, result.segment->beta))};
-        return answer;
+        answer.witness = {exact_position(exact_mean(from, alpha)),
+                          exact_position(exact_mean(to, beta))};
+        decision.out_of_effort = false;
+        return decision;
       }
       undecided |= result.outcome == SearchOutcome::Undecided;
+      if (result.outcome == SearchOutcome::Undecided && answer.occluders.empty()) {
+        answer.occluders = std::move(result.stuck_between);
+        answer.width = std::ldexp(result.stuck_width, -terms.scaled_by);
+      }
+      decision.out_of_effort |= result.out_of_effort;
+      certified &= result.certified;
       if (request.keep_cover) {
         const SightSpace& space = pair.space();
         auto& cover = data->pairs.emplace_back();
@@ -238,10 +261,18 @@ VisibilityAnswer decide(std::span<const Triangle> a, std::span<const Triangle> b
     }
   }
   answer.verdict = undecided ? Verdict::Undecided : Verdict::Hidden;
-  if (request.keep_cover && !undecided) {
+  if (request.keep_cover && !undecided && certified) {
     answer.cover = std::make_shared<VisibilityCover>(std::move(data));
   }
-  return answer;
+  return decision;
+}
+
+void name_occluders(VisibilityAnswer& answer,
+                    const std::function<int(int)>& occluder_of_piece) {
+  std::vector<int>& names = answer.occluders;
+  for (int& name : names) name = occluder_of_piece(name);
+  std::ranges::sort(names);
+  names.erase(std::unique(names.begin(), names.end()), names.end());
 }
 
 }  // namespace internal
@@ -252,28 +283,58 @@ VisibilityCost& operator+=(VisibilityCost& sum, const VisibilityCost& cost) {
   sum.games += cost.games;
   sum.exact_games += cost.exact_games;
   sum.halvings += cost.halvings;
+  sum.exact_cells += cost.exact_cells;
   sum.undecided += cost.undecided;
   return sum;
 }
+
+namespace {
+
+int scale_of(const internal::CutQuestion& cut) {
+  internal::UnitScale scale;
+  for (const internal::Triangle& t : cut.a) scale.add(t);
+  for (const internal::Triangle& t : cut.b) scale.add(t);
+  for (const internal::Piece& piece : cut.pieces) scale.add(piece.corners);
+  for (const std::array<Point, 2>& sliver : cut.slivers) scale.add(sliver);
+  return scale.exponent();
+}
+
+}  // namespace
 
 VisibilityAnswer polygon_visibility(const VisibilityQuestion& question,
                                     const VisibilityRequest& request) {
   const PrecisionScope precision(request.precision);
   const internal::CutQuestion cut = internal::cut(question);
+  const int scaled_by = scale_of(cut);
   std::vector<Polygon> polygons;
-  for (const internal::Piece& piece : cut.pieces) polygons.push_back(piece.corners);
+  for (const internal::Piece& piece : cut.pieces) {
+    Polygon& polygon = polygons.emplace_back();
+    for (const Point& p : piece.corners) {
+      polygon.push_back(internal::scaled(p, scaled_by));
+    }
+  }
   const internal::OccluderSet set(std::move(polygons));
   internal::OccluderSource source(set, internal::OccluderSource::Numbers::AsInSet, {});
   const auto misses_slivers = [&](const internal::SightSpace& space,
                                   const internal::SightPoint& s) {
     if (cut.slivers.empty()) return true;
-    const auto p = internal::exact_mean(space.a(), s.alpha);
-    const auto q = internal::exact_mean(space.b(), s.beta);
+    const auto [alpha, beta] = internal::weights_of(s);
+    const auto p = internal::exact_mean(space.a(), alpha);
+    const auto q = internal::exact_mean(space.b(), beta);
     return std::ranges::none_of(cut.slivers, [&](const auto& sliver) {
-      return internal::may_touch(p, q, sliver);
+      return internal::may_touch(p, q,
+                                 {internal::scaled(sliver[0], scaled_by),
+                                  internal::scaled(sliver[1], scaled_by)});
     });
   };
-  return internal::decide(cut.a, cut.b, {source, {}, misses_slivers}, request);
+  internal::PairTerms terms{.source = source,
+                            .known = {},
+                            .accept = misses_slivers,
+                            .scaled_by = scaled_by,
+                            .stop = internal::stop_of(request)};
+  VisibilityAnswer answer = internal::decide(cut.a, cut.b, terms, request).answer;
+  internal::name_occluders(answer, [&](int piece) { return cut.pieces[piece].occluder; });
+  return answer;
 }
 
 }  // namespace sightline

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -37,8 +38,9 @@ struct VisibilityQuestion {
 enum class Verdict : std::uint8_t {
   Visible,
   Hidden,
-  /// Given up: stopped, over budget, or an opening, if there is one, is narrower than
-  /// 2^-50 of a and b.
+  /// Stopped or over budget.  (Or an opening, if there is one, is narrower than 2^-50 of
+  /// a and b and could not be decided in exact numbers either; no such question is
+  /// known.)
   Undecided
 };
 
@@ -58,6 +60,7 @@ struct VisibilityCost {
   std::int64_t games = 0;        ///< linear programs in doubles
   std::int64_t exact_games = 0;  ///< linear programs in rationals
   std::int64_t halvings = 0;     ///< of a cell's triangles
+  std::int64_t exact_cells = 0;  ///< cells decided by arranging curves
   std::int64_t undecided = 0;    ///< cells given up
 };
 VisibilityCost& operator+=(VisibilityCost& sum, const VisibilityCost& cost);
@@ -66,8 +69,15 @@ struct VisibilityAnswer {
   Verdict verdict = Verdict::Undecided;
   /// Visible: from a's interior to b's interior, missing every closed occluder.
   std::optional<std::array<ExactPosition, 2>> witness;
-  /// Hidden, when asked for.
+  /// Hidden, when asked for; null when a cell was too narrow for the proofs that a cover
+  /// holds, and was decided without one.
   std::shared_ptr<const VisibilityCover> cover;
+  /// Undecided: occluders beside the place that was given up first, ascending; none where
+  /// the search was ended before it knew any.
+  std::vector<int> occluders;
+  /// Undecided: an opening there is at most this wide, in scene units; infinite where the
+  /// search was ended from outside.
+  double width = std::numeric_limits<double>::infinity();
   VisibilityCost cost;
 };
 

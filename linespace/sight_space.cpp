@@ -42,6 +42,16 @@ std::int8_t constant_sign(const std::array<Sign, 9>& signs) {
 
 }  // namespace
 
+std::array<ExactWeights, 2> weights_of(const SightPoint& s) {
+  if (s.exact) return *s.exact;
+  std::array<ExactWeights, 2> weights;
+  for (int i = 0; i < 3; ++i) {
+    weights[0][i] = s.alpha[i];
+    weights[1][i] = s.beta[i];
+  }
+  return weights;
+}
+
 bool CornerValues::certainly(int sign) const {
   for (int i = 0; i < 9; ++i) {
     if (!(sign * value[i] >= error[i])) return false;
@@ -83,11 +93,14 @@ Point apex_off(const Triangle& t) {
   normal.cwiseAbs().maxCoeff(&axis);
   const double size =
       std::max((t[1] - t[0]).cwiseAbs().maxCoeff(), std::abs(t[0][axis]) * 0x1p-40);
+  int exponent;
+  std::frexp(size, &exponent);
+  const double step = std::ldexp(1.0, exponent);
   Point apex = t[0];
-  apex[axis] += std::exp2(std::ceil(std::log2(size)));
+  apex[axis] += step;
   for (int i = 0; orient3d(t[0], t[1], t[2], apex) == Sign::Zero && i < 3; ++i) {
     apex = t[0];
-    apex[i] += std::exp2(std::ceil(std::log2(size)));
+    apex[i] += step;
   }
   return apex;
 }
@@ -111,7 +124,8 @@ std::size_t SightSpace::KeyHash::operator()(const Key& key) const {
   return h;
 }
 
-SightSpace::SightSpace(const Triangle& a, const Triangle& b) : a_(a), b_(b) {
+SightSpace::SightSpace(const Triangle& a, const Triangle& b, int scaled_by)
+    : a_(a), b_(b), scaled_by_(scaled_by) {
   apex_ = apex_off(a);
   double largest = 0;
   for (const Triangle* t : {&a_, &b_}) {
@@ -410,15 +424,16 @@ std::array<Rational, 9> SightSpace::exact(int form) const {
   return values;
 }
 
-bool SightSpace::blocks(const Blocker& blocker, const Weights& alpha,
-                        const Weights& beta) const {
+bool SightSpace::blocks(const Blocker& blocker, const SightPoint& s) const {
+  // Rounded weights are off by at most kUnit times their size.
+  const double off = s.exact ? 4 * kUnit : 0;
   bool certain = true;
   for (const auto& [form, sign] : parts(blocker)) {
     const CornerValues& at = forms_[form].at;
     double value = 0, magnitude = 0, error = 0;
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k < 3; ++k) {
-        const double weight = alpha[j] * beta[k];
+        const double weight = s.alpha[j] * s.beta[k];
         const double term = weight * at.value[3 * j + k];
         value += term;
         magnitude += std::abs(term);
@@ -426,17 +441,18 @@ bool SightSpace::blocks(const Blocker& blocker, const Weights& alpha,
       }
     }
     // A term passes at most 2 roundings and 9 additions, the error sum no more.
-    error = (error + 12 * kUnit * magnitude) * (1 + 16 * kUnit);
+    error = (error + (12 * kUnit + off) * magnitude) * (1 + 16 * kUnit);
     if (sign * value < -error) return false;
     certain &= sign * value > error;
   }
   if (certain) return true;
+  const auto [alpha, beta] = weights_of(s);
   for (const auto& [form, sign] : parts(blocker)) {
     const std::array<Rational, 9> values = exact(form);
     Rational value = 0;
     for (int j = 0; j < 3; ++j) {
       for (int k = 0; k < 3; ++k) {
-        value += Rational(alpha[j]) * Rational(beta[k]) * values[3 * j + k];
+        value += alpha[j] * beta[k] * values[3 * j + k];
       }
     }
     if (sign * value < 0) return false;

@@ -16,6 +16,7 @@
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <set>
 #include <span>
 #include <unordered_map>
@@ -30,6 +31,18 @@ namespace sightline::internal {
 using Triangle = std::array<Point, 3>;
 /// Weights of a point of a triangle: not negative, sum 1.
 using Weights = std::array<double, 3>;
+
+using ExactWeights = std::array<Rational, 3>;
+
+/// A segment of a sight space, by its ends' weights.
+struct SightPoint {
+  /// Multiples of 2^-52, sum exactly 1; or `exact`, rounded.
+  Weights alpha, beta;
+  /// The weights, sum 1, where doubles do not hold them; null: alpha and beta are exact.
+  std::shared_ptr<const std::array<ExactWeights, 2>> exact = nullptr;
+};
+/// The weights of p, and of q.
+[[nodiscard]] std::array<ExactWeights, 2> weights_of(const SightPoint& s);
 
 /// What a form measures; occluder corners are counted within one convex piece.
 enum class FormKind : std::uint8_t {
@@ -108,8 +121,9 @@ struct Piece {
 /// Tables for one pair of triangles.  Occluders can be added as they are found.
 class SightSpace {
  public:
-  /// The triangles must have area.
-  SightSpace(const Triangle& a, const Triangle& b);
+  /// The triangles must have area.  All coordinates are those of the caller's question
+  /// times 2^scaled_by.
+  SightSpace(const Triangle& a, const Triangle& b, int scaled_by = 0);
 
   /// Adds all ways in which the piece blocks, alone and together with pieces that share
   /// an edge's line with it; those that block no open set of segments are left out.
@@ -147,15 +161,15 @@ class SightSpace {
 
   [[nodiscard]] const FormPoints& points(int form) const { return points_[form]; }
 
-  /// CornerValues are the form's values times 2 to the minus this.
-  [[nodiscard]] int exponent(int form) const { return exponents_[form]; }
+  /// CornerValues are the form's values times 2 to the minus this, in the units of the
+  /// caller's question: each form has degree 3 in the coordinates.
+  [[nodiscard]] int exponent(int form) const { return exponents_[form] - 3 * scaled_by_; }
 
   /// Exact corner values of a form of this space, on the scale of CornerValues.
   [[nodiscard]] std::array<Rational, 9> exact(int form) const;
 
   /// Whether the blocker blocks the segment, exactly.
-  [[nodiscard]] bool blocks(const Blocker& blocker, const Weights& alpha,
-                            const Weights& beta) const;
+  [[nodiscard]] bool blocks(const Blocker& blocker, const SightPoint& s) const;
 
  private:
   // Lines of edges, by direction and moment, rounded: equal keys are a hint.
@@ -179,7 +193,7 @@ class SightSpace {
   Triangle a_, b_;
   Point apex_;  // off the common plane, if there is one
   std::vector<Form> forms_;
-  std::vector<int> exponents_;  // of the scale, per form
+  std::vector<int> exponents_;  // of the scale, per form, in the units of a_ and b_
   std::vector<FormPoints> points_;
   std::vector<Blocker> blockers_;
   std::vector<Blocker::Part> parts_;
@@ -192,6 +206,7 @@ class SightSpace {
   std::set<std::vector<Blocker::Part>> joined_;
   std::size_t neighbours_known_ = 0;  // blockers up to here were joined to others
   double size_ = 1;                   // of the largest coordinate, a power of two
+  int scaled_by_;
 };
 
 /// The outline of a patch: sides of pieces from their lexicographically smaller end, and

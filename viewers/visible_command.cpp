@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "linespace/face_visibility.h"
@@ -36,6 +37,13 @@ Json witness_json(const VisibilityAnswer& answer) {
       {position_json((*answer.witness)[0]), position_json((*answer.witness)[1])});
 }
 
+// Undecided: where the search was given up first.
+void add_opening(Json& j, const VisibilityAnswer& answer) {
+  if (answer.verdict != Verdict::Undecided) return;
+  j["occluders"] = answer.occluders;
+  j["width"] = std::isfinite(answer.width) ? Json(answer.width) : Json(nullptr);
+}
+
 Json verdict_json(Verdict verdict) {
   switch (verdict) {
     case Verdict::Visible:
@@ -48,11 +56,9 @@ Json verdict_json(Verdict verdict) {
 }
 
 Json cost_json(const VisibilityCost& cost) {
-  return {{"samples", cost.samples},
-          {"cells", cost.cells},
-          {"games", cost.games},
-          {"exact_games", cost.exact_games},
-          {"halvings", cost.halvings}};
+  return {{"samples", cost.samples},   {"cells", cost.cells},
+          {"games", cost.games},       {"exact_games", cost.exact_games},
+          {"halvings", cost.halvings}, {"exact_cells", cost.exact_cells}};
 }
 
 VisibilityRequest request_of(const VisibleOptions& options, const Meter& meter,
@@ -124,6 +130,7 @@ ExitStatus run_questions(const VisibleOptions& options) {
       Json j{{"visible", verdict_json(answer.verdict)},
              {"witness", witness_json(answer)},
              {"milliseconds", milliseconds}};
+      add_opening(j, answer);
       if (options.check && answer.cover) j["cover"] = checked_json(questions[i], answer);
       j["cost"] = cost_json(answer.cost);
       answers.push_back(std::move(j));
@@ -150,12 +157,20 @@ ExitStatus run_questions(const VisibleOptions& options) {
 // ---- two groups of a scene
 // ---------------------------------------------------------------
 
+// Occluders by the numbers of their polygons in the file.
+void add_opening(Json& j, const Scene& scene, const FacePairAnswer& pair) {
+  VisibilityAnswer answer = pair.answer;
+  for (int& face : answer.occluders) face = scene.faces()[face].source;
+  add_opening(j, answer);
+}
+
 Json pair_json(const Scene& scene, const FaceVisibility& visibility,
                const FacePairAnswer& pair, bool check) {
   Json j{{"faces", {scene.faces()[pair.a].source, scene.faces()[pair.b].source}},
          {"visible", verdict_json(pair.answer.verdict)},
          {"witness", witness_json(pair.answer)},
          {"occluders_used", pair.occluders.size()}};
+  add_opening(j, scene, pair);
   if (check && pair.answer.cover) {
     j["cover"] = checked_json(visibility.question_of(pair), pair.answer);
   }
@@ -238,6 +253,7 @@ ExitStatus run_groups(const VisibleOptions& options) {
     answer["faces"] = {scene.faces()[group.visible->a].source,
                        scene.faces()[group.visible->b].source};
   }
+  if (group.undecided) add_opening(answer, scene, *group.undecided);
   answer["face_pairs"] = as.size() * bs.size();
   answer["cost"] = cost_json(group.cost);
   if (options.all_pairs) {

@@ -153,9 +153,9 @@ TEST(SightSpace, BlockersAreClosed) {
   space.add(0, {0, {{-1, -1, 0.5}, {0.25, -1, 0.5}, {0.25, 2, 0.5}, {-1, 2, 0.5}}});
   ASSERT_EQ(space.blockers().size(), 1U);
   const internal::Weights on{0.5, 0.25, 0.25};
-  EXPECT_TRUE(space.blocks(space.blockers()[0], on, on));
+  EXPECT_TRUE(space.blocks(space.blockers()[0], {on, on}));
   const internal::Weights beside{0.5 - 0x1p-40, 0.25 + 0x1p-40, 0.25};
-  EXPECT_FALSE(space.blocks(space.blockers()[0], beside, beside));
+  EXPECT_FALSE(space.blocks(space.blockers()[0], {beside, beside}));
 }
 
 TEST(PolygonVisibility, TilesOfAWallAreJoined) {

@@ -52,7 +52,7 @@ TEST(SegmentSampler, ProposesWhatNoOccluderBlocks) {
     }
     const auto blocked = [&](const SightPoint& s) {
       return std::ranges::any_of(space.blockers(), [&](const internal::Blocker& blocker) {
-        return space.blocks(blocker, s.alpha, s.beta);
+        return space.blocks(blocker, s);
       });
     };
     int seen = 0;

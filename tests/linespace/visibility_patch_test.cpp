@@ -144,7 +144,7 @@ TEST(SightSpace, APatchBlocksNothingThatItsPiecesDoNot) {
     }
     const auto blocks = [&](const SightSpace& space, const SightPoint& s) {
       return std::ranges::any_of(space.blockers(), [&](const internal::Blocker& x) {
-        return x.halves[0] < 0 && space.blocks(x, s.alpha, s.beta);
+        return x.halves[0] < 0 && space.blocks(x, s);
       });
     };
     const SightPoint around{weights(), weights()};
