@@ -94,7 +94,7 @@ TEST(CliPolygon, ASavedSkeletonKeepsItsEndContacts) {
   const fs::path saved =
       fs::temp_directory_path() / ("sightline-polygon-" + std::to_string(getpid()));
   const json all = skeleton("--events polygon -o " + saved.string());
-  const json again = skeleton("--events polygon --saved " + saved.string());
+  const json again = skeleton("--saved " + saved.string());
   EXPECT_EQ(again.at("nodes"), all.at("nodes"));
   EXPECT_EQ(again.at("arcs"), all.at("arcs"));
   fs::remove(saved);

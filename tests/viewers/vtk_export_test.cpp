@@ -16,6 +16,7 @@
 #include <fstream>
 
 #include "linespace/mesh_io.h"
+#include "viewers/answer.h"
 #include "viewers/drawing.h"
 #include "viewers/eee_surface.h"
 #include "viewers/output_file.h"
@@ -127,13 +128,16 @@ TEST_F(VtkExport, EeeBlocksHaveTheirArrays) {
 TEST_F(VtkExport, SavedSkeletonIsReadBackWhole) {
   {
     OutputFile file(folder_ / "skeleton.json");
-    const Json head{{"scene", {{"file", "room.obj"}}}, {"complete", true}};
+    Json head = answer_head("skeleton", scene_, true, {});
+    head["options"] = {{"events", "solid"}};
+    head.update(skeleton_json(skeleton_));
+    head["simplified"] = simplified_json(scene_, skeleton_.simplified, true);
     write_skeleton_json(file.stream(), head, scene_, skeleton_, nullptr);
     file.commit();
   }
   const StoredSkeleton stored = read_skeleton_json((folder_ / "skeleton.json").string());
   check_fits(stored, scene_);
-  EXPECT_EQ(stored.scene_file, "room.obj");
+  EXPECT_EQ(stored.scene_file, scene_.soup().source);
   const Skeleton& back = stored.skeleton;
   ASSERT_EQ(back.nodes.size(), skeleton_.nodes.size());
   for (std::size_t i = 0; i < back.nodes.size(); ++i) {
