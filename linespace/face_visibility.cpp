@@ -11,6 +11,8 @@
 #include "linespace/occluder_source_internal.h"
 #include "linespace/polygon_visibility_internal.h"
 #include "linespace/scene_internal.h"
+#include "linespace/seams.h"
+#include "linespace/seams_internal.h"
 #include "linespace/unit_scale_internal.h"
 
 namespace sightline {
@@ -25,20 +27,38 @@ Polygon polygon_of(const Scene& scene, int face) {
   return polygon;
 }
 
-std::vector<Polygon> scaled_polygons(const Scene& scene, int exponent) {
-  std::vector<Polygon> polygons(scene.faces().size());
-  for (std::size_t f = 0; f < polygons.size(); ++f) {
-    for (const int p : scene.face_points(static_cast<int>(f))) {
-      polygons[f].push_back(scaled(scene.point(p), exponent));
+/// Polygons that block, each with the face that it is of.
+struct FacePieces {
+  std::vector<Polygon> polygons;
+  std::vector<int> face;
+
+  /// The faces, and behind them what lies around each one.
+  FacePieces(const Scene& scene, double seam) {
+    const int count = static_cast<int>(scene.faces().size());
+    for (int f = 0; f < count; ++f) add(polygon_of(scene, f), f);
+    if (seam == 0) return;
+    for (int f = 0; f < count; ++f) {
+      for (Polygon& flap : flaps(polygons[f], seam / 2)) add(std::move(flap), f);
     }
   }
-  return polygons;
-}
 
-int scale_of(const Scene& scene) {
-  UnitScale scale;
-  scale.add(scene.points());
-  return scale.exponent();
+  void add(Polygon polygon, int f) {
+    polygons.push_back(std::move(polygon));
+    face.push_back(f);
+  }
+
+  [[nodiscard]] int scale() const {
+    UnitScale scale;
+    for (const Polygon& polygon : polygons) scale.add(polygon);
+    return scale.exponent();
+  }
+};
+
+std::vector<Polygon> scaled(std::vector<Polygon> polygons, int exponent) {
+  for (Polygon& polygon : polygons) {
+    for (Point& p : polygon) p = internal::scaled(p, exponent);
+  }
+  return polygons;
 }
 
 bool in_one_plane(const Scene& scene, int a, int b) {
@@ -71,11 +91,31 @@ Effort effort_of_pass(int pass, const VisibilityRequest& request) {
 
 struct FaceVisibility::Impl {
   const Scene& scene;
+  bool grown;
   int scaled_by;
-  OccluderSet faces;  // times 2^scaled_by
+  OccluderSet set;           // the pieces times 2^scaled_by
+  std::vector<int> face_of;  // per piece
 
-  explicit Impl(const Scene& s)
-      : scene(s), scaled_by(scale_of(s)), faces(scaled_polygons(s, scaled_by)) {}
+  Impl(const Scene& s, double seam) : Impl(s, seam > 0, FacePieces(s, seam)) {}
+  Impl(const Scene& s, bool is_grown, FacePieces pieces)
+      : scene(s),
+        grown(is_grown),
+        scaled_by(pieces.scale()),
+        set(scaled(std::move(pieces.polygons), scaled_by)),
+        face_of(std::move(pieces.face)) {}
+
+  // In the units of the scene.
+  [[nodiscard]] Polygon piece(int number) const {
+    Polygon polygon = set[number];
+    for (Point& p : polygon) p = internal::scaled(p, -scaled_by);
+    return polygon;
+  }
+
+  // A face that does not block between a and b.
+  [[nodiscard]] bool is_left_out(int face, int a, int b) const {
+    return face == a || face == b || in_one_plane(scene, a, face) ||
+           in_one_plane(scene, b, face);
+  }
 
   void check(int face) const {
     if (face < 0 || face >= static_cast<int>(scene.faces().size())) {
@@ -123,10 +163,8 @@ FaceVisibility::Impl::PairDecision FaceVisibility::Impl::decide_pair(
     pair.answer.verdict = Verdict::Hidden;
     return result;
   }
-  OccluderSource source(faces, OccluderSource::Numbers::AsFound, [&](int face) {
-    return face == a || face == b || in_one_plane(scene, a, face) ||
-           in_one_plane(scene, b, face);
-  });
+  OccluderSource source(set, OccluderSource::Numbers::AsFound,
+                        [&](int piece) { return is_left_out(face_of[piece], a, b); });
   VisibilityRequest terms = request;
   terms.samples = effort.samples;
   terms.samples_only = effort.samples_only;
@@ -139,17 +177,25 @@ FaceVisibility::Impl::PairDecision FaceVisibility::Impl::decide_pair(
                               .stop = stop},
                              terms);
   pair.answer = std::move(decision.answer);
-  pair.occluders = source.found();
+  recent = source.found();
+  for (const int piece : recent) pair.occluders.push_back(face_of[piece]);
   name_occluders(pair.answer, [&](int piece) { return pair.occluders[piece]; });
-  recent = pair.occluders;
+  if (grown) {
+    pair.pieces = recent;
+    std::ranges::sort(pair.occluders);
+    const auto [rest, end] = std::ranges::unique(pair.occluders);
+    pair.occluders.erase(rest, end);
+  }
   if (recent.size() > kRemembered)
     recent.erase(recent.begin(), recent.end() - kRemembered);
   result.out_of_effort = decision.out_of_effort;
   return result;
 }
 
-FaceVisibility::FaceVisibility(const Scene& scene)
-    : impl_(std::make_unique<Impl>(scene)) {}
+FaceVisibility::FaceVisibility(const Scene& scene, double seam) {
+  check_seam(seam);
+  impl_ = std::make_unique<Impl>(scene, seam);
+}
 FaceVisibility::~FaceVisibility() = default;
 FaceVisibility::FaceVisibility(FaceVisibility&&) noexcept = default;
 
@@ -339,11 +385,29 @@ GroupAnswer FaceVisibility::between(std::span<const int> as, std::span<const int
   return GroupQuestion(as, bs, all_pairs, request, decide_pair, is_hidden).run();
 }
 
+std::vector<int> FaceVisibility::met(int a, int b,
+                                     const std::array<ExactPosition, 2>& segment) const {
+  impl_->check(a);
+  impl_->check(b);
+  std::vector<Polygon> pieces;
+  for (std::size_t i = 0; i < impl_->face_of.size(); ++i) {
+    pieces.push_back(impl_->piece(static_cast<int>(i)));
+  }
+  std::vector<int> faces;
+  for (const int piece : polygons_met(pieces, segment)) {
+    const int face = impl_->face_of[piece];
+    if (!impl_->is_left_out(face, a, b)) faces.push_back(face);
+  }
+  std::ranges::sort(faces);
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  return faces;
+}
+
 VisibilityQuestion FaceVisibility::question_of(const FacePairAnswer& pair) const {
   const Scene& scene = impl_->scene;
   VisibilityQuestion question{polygon_of(scene, pair.a), polygon_of(scene, pair.b), {}};
-  for (const int face : pair.occluders) {
-    question.occluders.push_back(polygon_of(scene, face));
+  for (const int piece : impl_->grown ? pair.pieces : pair.occluders) {
+    question.occluders.push_back(impl_->piece(piece));
   }
   return question;
 }

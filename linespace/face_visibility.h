@@ -22,6 +22,8 @@ struct FacePairAnswer {
   /// The faces that were looked at as occluders: with the question of these alone,
   /// check_cover verifies a cover.
   std::vector<int> occluders;
+  /// With a seam: the polygons that these are grown to, as the cover numbers them.
+  std::vector<int> pieces;
 };
 
 /// The answer for two sets of faces.
@@ -44,7 +46,9 @@ struct GroupAnswer {
 /// Keeps a reference to the scene.  Immutable; safe to ask from several threads.
 class FaceVisibility {
  public:
-  explicit FaceVisibility(const Scene& scene);
+  /// seam: every face counts as an occluder grown by seam/2 in its own plane (seams.h),
+  /// in scene units, finite, from 0 on.
+  explicit FaceVisibility(const Scene& scene, double seam = 0);
   ~FaceVisibility();
   FaceVisibility(FaceVisibility&&) noexcept;
 
@@ -62,6 +66,11 @@ class FaceVisibility {
   [[nodiscard]] GroupAnswer between(std::span<const int> as, std::span<const int> bs,
                                     bool all_pairs,
                                     const VisibilityRequest& request = {}) const;
+
+  /// The faces that, grown, meet the closed segment between a and b, ascending; those
+  /// that do not block between a and b are left out.
+  [[nodiscard]] std::vector<int> met(int a, int b,
+                                     const std::array<ExactPosition, 2>& segment) const;
 
   /// The question that a pair's cover answers.
   [[nodiscard]] VisibilityQuestion question_of(const FacePairAnswer& pair) const;

@@ -9,6 +9,7 @@
 #include "linespace/face_visibility.h"
 #include "linespace/mesh_io.h"
 #include "linespace/polygon_visibility.h"
+#include "linespace/seams.h"
 #include "linespace/visibility_cover.h"
 #include "linespace/visibility_estimate.h"
 #include "viewers/command_line.h"
@@ -29,6 +30,7 @@ struct VisibleOptions : CommonOptions {
   std::uint64_t seed = 1;
   bool check = false;
   bool all_pairs = false;
+  double seam = 0;
 };
 
 Json witness_json(const VisibilityAnswer& answer) {
@@ -42,6 +44,13 @@ void add_opening(Json& j, const VisibilityAnswer& answer) {
   if (answer.verdict != Verdict::Undecided) return;
   j["occluders"] = answer.occluders;
   j["width"] = std::isfinite(answer.width) ? Json(answer.width) : Json(nullptr);
+}
+
+// What growing closed: `occluders` by the numbers that the caller knows.
+Json seam_json(const std::array<ExactPosition, 2>& segment,
+               const std::vector<int>& occluders) {
+  return {{"occluders", occluders},
+          {"segment", {position_json(segment[0]), position_json(segment[1])}}};
 }
 
 Json verdict_json(Verdict verdict) {
@@ -111,6 +120,7 @@ ExitStatus run_questions(const VisibleOptions& options) {
   Json answers = Json::array();
   VisibilityCost cost;
   std::size_t counts[3] = {};
+  bool seams_known = true;
   std::size_t occluders = 0;
   {
     Progress progress("visible");
@@ -118,20 +128,28 @@ ExitStatus run_questions(const VisibleOptions& options) {
     for (std::size_t i = 0; i < questions.size(); ++i) {
       occluders += questions[i].occluders.size();
       const Meter one;
-      VisibilityAnswer answer;
+      SeamAnswer seams;
       try {
-        answer =
-            polygon_visibility(questions[i], request_of(options, meter, interruption));
+        seams = polygon_visibility(questions[i], options.seam,
+                                   request_of(options, meter, interruption));
       } catch (const InvalidInput& error) {
         throw InvalidInput(
             fmt::format("{}: instances[{}].{}", options.scene, i, error.what()));
       }
+      const VisibilityAnswer& answer = seams.answer;
       const double milliseconds = 1000 * one.seconds();
       Json j{{"visible", verdict_json(answer.verdict)},
              {"witness", witness_json(answer)},
              {"milliseconds", milliseconds}};
       add_opening(j, answer);
-      if (options.check && answer.cover) j["cover"] = checked_json(questions[i], answer);
+      if (options.seam > 0) {
+        j["seams"] = Json::array();
+        if (seams.closed) {
+          j["seams"].push_back(seam_json(seams.closed->segment, seams.closed->occluders));
+        }
+        seams_known &= !seams.closed_unknown;
+      }
+      if (options.check && answer.cover) j["cover"] = checked_json(seams.grown, answer);
       j["cost"] = cost_json(answer.cost);
       answers.push_back(std::move(j));
       cost += answer.cost;
@@ -139,7 +157,7 @@ ExitStatus run_questions(const VisibleOptions& options) {
       if (tell) tell(static_cast<double>(i + 1) / static_cast<double>(questions.size()));
     }
   }
-  const bool complete = counts[static_cast<int>(Verdict::Undecided)] == 0;
+  const bool complete = counts[static_cast<int>(Verdict::Undecided)] == 0 && seams_known;
   Json answer = answer_head(
       "visible", Json{{"instances", questions.size()}, {"occluders", occluders}},
       complete, {meter.seconds(), meter.predicates()});
@@ -209,6 +227,21 @@ ExitStatus run_sampled(const VisibleOptions& options) {
   return estimate.complete ? kAnswered : kPartial;
 }
 
+Json seams_json(const Scene& scene, const ClosedPairs& closed) {
+  Json list = Json::array();
+  for (const auto& [a, b, seam] : closed.pairs) {
+    std::vector<int> occluders;
+    for (const int face : seam.occluders) {
+      occluders.push_back(scene.faces()[face].source);
+    }
+    occluders.erase(std::unique(occluders.begin(), occluders.end()), occluders.end());
+    Json j = seam_json(seam.segment, occluders);
+    j["faces"] = {scene.faces()[a].source, scene.faces()[b].source};
+    list.push_back(std::move(j));
+  }
+  return list;
+}
+
 void write_witnesses(const VisibleOptions& options, const Scene& scene,
                      const GroupAnswer& group) {
   LineBlock block{"witnesses", "VV", {}};
@@ -233,16 +266,23 @@ ExitStatus run_groups(const VisibleOptions& options) {
   const Scene scene(read_mesh(options.scene));
   const std::vector<int> as = scene.faces_named(options.a);
   const std::vector<int> bs = scene.faces_named(options.b);
-  const FaceVisibility visibility(scene);
+  const FaceVisibility visibility(scene, options.seam);
   GroupAnswer group;
+  ClosedPairs closed;
   {
     Progress progress("visible");
     VisibilityRequest request = request_of(options, meter, interruption);
     request.progress = progress.callback();
     group = visibility.between(as, bs, options.all_pairs, request);
+    if (options.seam > 0) {
+      request.budget_seconds = options.budget - meter.seconds();
+      request.keep_cover = false;
+      closed = closed_pairs(scene, visibility, as, bs, group, options.all_pairs, request);
+    }
   }
-  const bool complete = options.all_pairs ? group.pairs_undecided == 0
-                                          : group.verdict != Verdict::Undecided;
+  const bool complete =
+      closed.complete && (options.all_pairs ? group.pairs_undecided == 0
+                                            : group.verdict != Verdict::Undecided);
   Json answer = answer_head("visible", scene, complete,
                             {meter.seconds(), meter.predicates() + group.predicates});
   answer["method"] = "exact";
@@ -254,6 +294,7 @@ ExitStatus run_groups(const VisibleOptions& options) {
                        scene.faces()[group.visible->b].source};
   }
   if (group.undecided) add_opening(answer, scene, *group.undecided);
+  if (options.seam > 0) answer["seams"] = seams_json(scene, closed);
   answer["face_pairs"] = as.size() * bs.size();
   answer["cost"] = cost_json(group.cost);
   if (options.all_pairs) {
@@ -279,6 +320,10 @@ ExitStatus run_groups(const VisibleOptions& options) {
           from.nearest.z(), answer["faces"][1].get<int>(), to.nearest.x(), to.nearest.y(),
           to.nearest.z());
     }
+    for (const auto& [from, to, seam] : closed.pairs) {
+      std::cout << fmt::format("  open without --seam: face {} to face {}\n",
+                               scene.faces()[from].source, scene.faces()[to].source);
+    }
     std::cout << fmt::format("  {} pairs of faces, {:.3f} s\n", as.size() * bs.size(),
                              answer["seconds"].get<double>());
   }
@@ -286,6 +331,9 @@ ExitStatus run_groups(const VisibleOptions& options) {
 }
 
 ExitStatus run(const VisibleOptions& options) {
+  if (options.seam > 0 && options.method == "sampled") {
+    throw UsageError("visible: --seam goes with --method exact");
+  }
   if (options.a.empty() != options.b.empty()) {
     throw UsageError("visible: name two groups of the scene, A and B, or none");
   }
@@ -332,6 +380,14 @@ Command add_visible_command(CLI::App& app) {
                    "of the random segments that are tried (default 1)")
       ->type_name("N")
       ->check(whole_number(0));
+  command
+      ->add_option(
+          "--seam", options->seam,
+          "every occluder counts as grown by half of this in its own plane, so "
+          "that gaps up to W between wall pieces are closed; what that closed is "
+          "listed (scene units, default 0)")
+      ->type_name("W")
+      ->check(number_from_zero(0x1p100));
   command->add_flag("--all-pairs", options->all_pairs,
                     "decide every pair of faces of A and B, and list them");
   command->add_flag("--check", options->check,
