@@ -891,7 +891,8 @@ void LineScan::Impl::round_line(const double* a, const double* d,
 }
 
 // Fills `signs` with how L passes the face's sides, 0 where this stage cannot tell; false
-// when L misses the face for certain.
+// when L misses the face for certain: passes sides on both hands, or has all corners on
+// one side (so told of a face in a plane with L, too).
 //
 // Let V be the largest |v| (here alpha = 1), |d| <= 1 with error 2 ulp, e = 2^-53.
 //   v = fl(p - a):   error <= e V + a_error
@@ -907,18 +908,25 @@ bool LineScan::Impl::first_stage(std::span<const int> points) {
   u_scratch.resize(2 * n);
   const int i = (k + 1) % 3, j = (k + 2) % 3;
   const double di = rounded.d[i], dj = rounded.d[j], dk = rounded.d[k];
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   double largest_v = 0, largest_u = 0;
+  double low_x = kInfinity, high_x = -kInfinity, low_y = kInfinity, high_y = -kInfinity;
   for (std::size_t c = 0; c < n; ++c) {
     const Point& p = scene.point(points[c]);
     const double vi = p[i] - rounded.a[i], vj = p[j] - rounded.a[j],
                  vk = p[k] - rounded.a[k];
     largest_v = std::max({largest_v, std::abs(vi), std::abs(vj), std::abs(vk)});
     const double ux = vi * dk - vk * di, uy = vj * dk - vk * dj;
-    largest_u = std::max({largest_u, std::abs(ux), std::abs(uy)});
+    low_x = std::min(low_x, ux);
+    high_x = std::max(high_x, ux);
+    low_y = std::min(low_y, uy);
+    high_y = std::max(high_y, uy);
     u_scratch[2 * c] = ux;
     u_scratch[2 * c + 1] = uy;
   }
+  largest_u = std::max({-low_x, high_x, -low_y, high_y});
   const double du = 12 * kUlp * largest_v + 3 * rounded.a_error + kUnderflow;
+  if (low_x > du || high_x < -du || low_y > du || high_y < -du) return false;
   const double bound =
       4 * largest_u * du + 2 * du * du + 8 * kUlp * largest_u * largest_u + kUnderflow;
   bool left = false, right = false;

@@ -8,6 +8,8 @@
 #include "skeleton/drawn_internal.h"
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/plane_crossings_internal.h"
+#include "skeleton/plane_values_internal.h"
+#include "skeleton/shaft_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -37,6 +39,22 @@ std::optional<std::array<bool, 2>> open_state(const Generators& g, const Ridge& 
   return ends;
 }
 
+// Those of the faces whose boxes may meet a segment from v to that part of the edge.
+std::vector<int> faces_towards(const Generators& g, const Point& v, const Point& e0,
+                               const Point& e1, const CutInterval& part,
+                               std::span<const int> faces) {
+  const Point d = e1 - e0;
+  Shaft::Pad pad;
+  // A difference, a product and a sum are rounded, each by half a unit of its last place.
+  for (int i = 0; i < 3; ++i) pad[i] = 4 * kUnit * (std::abs(e0[i]) + std::abs(d[i]));
+  const Shaft hull(e0 + part.from.lo * d, e0 + part.to.hi * d, v, v, pad);
+  std::vector<int> found;
+  for (const int f : faces) {
+    if (hull.may_meet(g.face_box(f))) found.push_back(f);
+  }
+  return found;
+}
+
 }  // namespace
 
 std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Point& e0,
@@ -50,10 +68,9 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
   const auto add = [&](CutKind kind, int feature, std::array<std::int32_t, 3> points) {
     const PlaneSide cutter(
         {scene.point(points[0]), scene.point(points[1]), scene.point(points[2])});
-    const Sign s0 = cutter(e0);
-    const Sign s1 = cutter(e1);
-    if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) return;
-    cuts.push_back(make_cut(kind, feature, points, cutter.value(e0), cutter.value(e1)));
+    const PlaneValues on_edge = plane_values(cutter, e0, e1);
+    if (on_edge.sign0 == on_edge.sign1 || on_edge.zero_at_end()) return;
+    cuts.push_back(make_cut(kind, feature, points, on_edge.at0, on_edge.at1));
   };
   for (const int f : faces) {
     const auto corners = scene.face_points(f);
@@ -135,11 +152,10 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
   const Point& e1 = scene.point(ridge.points[1]);
   const LineThrough line{e0, e1};
 
-  std::vector<int> faces(meeting.begin(), meeting.end());
-  faces.insert(faces.end(), star.faces.begin(), star.faces.end());
-  sort_unique(faces);
-  const std::vector<Cut> cuts =
-      critical_cuts(g, star, e0, e1, plane, faces, out.positions);
+  std::vector<int> all_faces(meeting.begin(), meeting.end());
+  all_faces.insert(all_faces.end(), star.faces.begin(), star.faces.end());
+  sort_unique(all_faces);
+  std::vector<int> faces;  // of the open part at hand
   const ExactPoint from = exact_point(v);
   const ExactPoint x0 = exact_point(e0);
   const ExactPoint x1 = exact_point(e1);
@@ -172,6 +188,9 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
       });
 
   for (const CutInterval& open : closed.complement()) {
+    faces = faces_towards(g, v, e0, e1, open, all_faces);
+    const std::vector<Cut> cuts =
+        critical_cuts(g, star, e0, e1, plane, faces, out.positions);
     std::vector<Cut> stops{open.from};
     for (const Cut& c : cuts) {
       if (compare(scene, line, open.from, c) == Sign::Negative &&

@@ -1,7 +1,10 @@
+#include <CGAL/Gmpq.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "linespace/predicates_internal.h"
+#include "linespace/transversals_internal.h"
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/rounded_root_internal.h"
 
@@ -50,12 +53,13 @@ Rational exact_parameter(const Scene& scene, const LineThrough& edge, const Cut&
   if (cut.kind == CutKind::Start) return 0;
   if (cut.kind == CutKind::End) return 1;
   if (cut.exact != nullptr) return *cut.exact;
-  const ExactPoint a = exact_point(scene.point(cut.plane[0]));
-  const ExactPoint b = exact_point(scene.point(cut.plane[1]));
-  const ExactPoint c = exact_point(scene.point(cut.plane[2]));
-  const Rational x = exact_orient(a, b, c, exact_point(edge.from));
-  const Rational y = exact_orient(a, b, c, exact_point(edge.to));
-  return x / (x - y);
+  const auto at = [&](const Point& p) {
+    return ring_orient3d(scene.point(cut.plane[0]), scene.point(cut.plane[1]),
+                         scene.point(cut.plane[2]), p);
+  };
+  const Ring x = at(edge.from);
+  const Ring y = at(edge.to);
+  return Rational((CGAL::Gmpq(x) / CGAL::Gmpq(Ring(x - y))).mpq());
 }
 
 double rounded_parameter(const Scene& scene, const LineThrough& edge, const Cut& cut) {

@@ -6,6 +6,12 @@
 //     Lazard, Weibel and Whitesides (2008).  docs/pictures/skeleton_law.gp draws it.
 //   skeleton_scaling polytopes|city LARGEST [double]
 //     one scene each of 500, 750, ... polygons up to LARGEST: seconds, bytes, arcs.
+//   skeleton_scaling streets LARGEST [ev] [polygon]
+//     five cities side by side, of 1,000, 1,585, ... polygons up to LARGEST: wall and
+//     processor time, arcs, the share of signs that took exact numbers.
+//   skeleton_scaling CITY POLYGONS [ev] [polygon]
+//     one of these, with a hash of the whole answer: CITY is random, street, square, sunk
+//     or floating (both street cities), square-sunk or touching (a grid city).
 
 #include <sys/resource.h>
 
@@ -28,21 +34,86 @@ namespace {
 
 using namespace sightline;  // NOLINT(google-build-using-namespace)
 
+/// The cities of `streets`; `random` is testing::city.
+PolygonSoup city_of(const std::string& name, int polygons) {
+  if (name == "random") return testing::city(1, polygons);
+  if (name == "touching") return testing::grid_city(1, polygons, {.may_touch = true});
+  testing::StreetCityOptions options;
+  options.square = name.starts_with("square");
+  if (name.ends_with("sunk")) options.bottom = -1;
+  if (name.ends_with("floating")) options.bottom = 0.001;
+  return testing::street_city(1, polygons, options);
+}
+constexpr std::array kCities{"random",      "street",   "square",  "sunk",
+                             "square-sunk", "floating", "touching"};
+constexpr std::size_t kSideBySide = 6;
+
 constexpr std::array kKinds{"VV", "VEE", "EVE", "FvE", "EEEE", "FEE", "all"};
 
 struct Row {
-  double k = 0, edges = 0, polygons = 0, seconds = 0, arcs = 0;
+  double k = 0, edges = 0, polygons = 0, seconds = 0, processor_seconds = 0;
+  double arcs = 0, eee_arcs = 0;  // of all, EEE
+  double exact_share = 0;         // of the signs
+  std::uint64_t hash = 0;         // of the answer
   std::array<double, kKinds.size()> nodes{};
 };
 
-Row measure(const PolygonSoup& soup, Precision precision) {
+double processor_seconds() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+/// Of arcs and nodes with all that is told of them, in their order (FNV-1a).  An arc's
+/// range is rounded to 2^-28: its last bits depend on which of several cuts that coincide
+/// is told.
+std::uint64_t hash_of(const Skeleton& skeleton) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  const auto add = [&](const auto& value) {
+    std::array<unsigned char, sizeof(value)> bytes;
+    std::memcpy(bytes.data(), &value, sizeof(value));
+    for (const unsigned char byte : bytes) hash = (hash ^ byte) * 0x100000001b3;
+  };
+  const auto add_arc = [&](const auto& arc) {
+    for (const bool flag : {arc.self, arc.ends[0], arc.ends[1]}) add(flag);
+    for (const double x : arc.range) add(std::floor(x * 0x1p28 + 0.3));
+    for (const std::uint32_t node : arc.nodes) add(node);
+  };
+  for (const SkeletonArc& arc : skeleton.arcs) {
+    add(arc.vertex), add(arc.edge);
+    add_arc(arc);
+  }
+  for (const EeeArc& arc : skeleton.eee_arcs) {
+    for (const std::int32_t edge : arc.edges) add(edge);
+    add_arc(arc);
+  }
+  for (const SkeletonNode& node : skeleton.nodes) {
+    add(node.kind);
+    for (const bool flag : {node.self, node.end, node.second, node.ends[0], node.ends[1]})
+      add(flag);
+    for (const Generator& x : skeleton.generators(node)) add(x.kind), add(x.id);
+    for (const Point& p : node.segment) add(p[0]), add(p[1]), add(p[2]);
+  }
+  return hash;
+}
+
+Row measure(const PolygonSoup& soup, const SkeletonRequest& request) {
   const Scene scene(soup);
-  SkeletonRequest request;
-  request.precision = precision;
+  const double processor_before = processor_seconds();
   const auto start = std::chrono::steady_clock::now();
   const Skeleton skeleton = build_skeleton(scene, request);
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   Row row;
+  row.processor_seconds = processor_seconds() - processor_before;
+  row.eee_arcs = static_cast<double>(skeleton.eee_arcs.size());
+  const StageCounts& signs = skeleton.predicates;
+  row.exact_share =
+      static_cast<double>(signs.by_exact) /
+      static_cast<double>(signs.by_double + signs.by_interval + signs.by_exact);
+  row.hash = hash_of(skeleton);
   row.k = static_cast<double>(scene.objects().size());
   row.edges = static_cast<double>(scene.edges().size());
   row.polygons = static_cast<double>(soup.polygons.size());
@@ -87,8 +158,8 @@ void law(double density, int scenes_per_size, int largest) {
     if (k > largest) break;
     for (int i = 1; i <= scenes_per_size; ++i) {
       const auto seed = static_cast<std::uint64_t>(1000 * k + i);
-      rows.push_back(measure(testing::random_polytopes(seed, k, {.density = density}),
-                             Precision::Exact));
+      rows.push_back(
+          measure(testing::random_polytopes(seed, k, {.density = density}), {}));
       const Row& row = rows.back();
       std::printf("%d,%.0f,%d,%.3f", k, row.edges, i, row.seconds);
       for (const double count : row.nodes) std::printf(",%.0f", count);
@@ -129,7 +200,9 @@ void growth(bool city, int largest, Precision precision) {
     const PolygonSoup soup =
         city ? testing::city(1, size)
              : testing::random_polytopes(1, size / 8, {.density = 0.2});
-    const Row row = measure(soup, precision);
+    SkeletonRequest request;
+    request.precision = precision;
+    const Row row = measure(soup, request);
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     std::printf("%.0f,%.0f,%.3f,%.0f,%.0f,%ld\n", row.polygons, row.edges, row.seconds,
@@ -143,6 +216,39 @@ void growth(bool city, int largest, Precision precision) {
   std::printf("# exponents over %.0f to %.0f polygons: seconds %.3f, arcs %.3f\n",
               polygons.front(), polygons.back(), fit(polygons, seconds).exponent,
               fit(polygons, arcs).exponent);
+}
+
+void print_city(const char* name, const Row& row) {
+  std::printf("%s,%.0f,%.0f,%.0f,%.2f,%.2f,%.3f,%.2f", name, row.polygons,
+              row.arcs - row.eee_arcs, row.eee_arcs, row.seconds, row.processor_seconds,
+              100 * row.exact_share, 1e6 * row.processor_seconds / row.arcs);
+}
+
+constexpr const char* kCityHeader =
+    "city,polygons,ev_arcs,eee_arcs,seconds,processor_seconds,exact_percent,"
+    "processor_microseconds_an_arc";
+
+void streets(int largest, const SkeletonRequest& request) {
+  std::printf("%s\n", kCityHeader);
+  std::array<std::vector<double>, kSideBySide> polygons, seconds, arcs;
+  for (double wanted = 1000; wanted <= 1.001 * largest; wanted *= 1.58489) {  // 10^(1/5)
+    for (std::size_t i = 0; i < kSideBySide; ++i) {
+      const Row row =
+          measure(city_of(kCities[i], static_cast<int>(std::lround(wanted))), request);
+      print_city(kCities[i], row);
+      std::printf("\n");
+      std::fflush(stdout);
+      polygons[i].push_back(row.polygons);
+      seconds[i].push_back(row.processor_seconds);
+      arcs[i].push_back(row.arcs);
+    }
+  }
+  if (polygons[0].size() < 3) return;
+  for (std::size_t i = 0; i < kSideBySide; ++i) {
+    std::printf("# %s: exponents of processor time %.3f, arcs %.3f\n", kCities[i],
+                fit(polygons[i], seconds[i]).exponent,
+                fit(polygons[i], arcs[i]).exponent);
+  }
 }
 
 }  // namespace
@@ -160,8 +266,27 @@ int main(int argc, char** argv) {
                                                            : Precision::Exact);
     return 0;
   }
+  SkeletonRequest request;
+  for (int i = 3; i < argc; ++i) {
+    if (std::strcmp(argv[i], "ev") == 0) request.eee = false;
+    if (std::strcmp(argv[i], "polygon") == 0) request.events = EventMode::Polygon;
+  }
+  if (what == "streets" && argc > 2) {
+    streets(std::atoi(argv[2]), request);
+    return 0;
+  }
+  if (std::find(kCities.begin(), kCities.end(), what) != kCities.end() && argc > 2) {
+    const Row row = measure(city_of(what, std::atoi(argv[2])), request);
+    std::printf("%s,hash\n", kCityHeader);
+    print_city(what.c_str(), row);
+    std::printf(",%016lx\n", static_cast<unsigned long>(row.hash));
+    return 0;
+  }
   std::fprintf(stderr,
                "usage: skeleton_scaling law [DENSITY [SCENES_PER_SIZE [LARGEST]]]\n"
-               "       skeleton_scaling polytopes|city LARGEST [double]\n");
+               "       skeleton_scaling polytopes|city LARGEST [double]\n"
+               "       skeleton_scaling streets LARGEST [ev] [polygon]\n"
+               "       skeleton_scaling random|street|square|sunk|square-sunk|floating|"
+               "touching POLYGONS [ev] [polygon]\n");
   return 2;
 }
