@@ -55,6 +55,9 @@ struct Ridge {
   /// Polygon mode, `touched`: what is seen differs along the edge and is asked line by
   /// line (drawn_internal.h).
   bool any_side = false;
+  /// Solid mode, `touched`: the foreign faces, where each meets the open edge in one
+  /// point and the lines to all other points need no general test.  Else empty.
+  std::vector<std::int32_t> pierced_by = {};
 
   /// Polygon mode: lines can end here.
   [[nodiscard]] bool can_end() const { return ends_in_front || ends_behind; }

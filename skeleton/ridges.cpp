@@ -11,7 +11,8 @@ namespace sightline::internal {
 namespace {
 
 // How a face of another object, or of the same one elsewhere, meets the open edge.
-enum class EdgeTouch : std::uint8_t { None, Touches, ContainsInside };
+// Pierced: in one point that it lies across.
+enum class EdgeTouch : std::uint8_t { None, Pierced, Touches, ContainsInside };
 
 // Where face f, which is not one of the edge's own, meets the open segment e0 e1.
 EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Point& e0,
@@ -32,7 +33,7 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
       const Sign inside = s0 == Sign::Positive ? Sign::Negative : Sign::Positive;
       if (s != inside) return EdgeTouch::None;
     }
-    return EdgeTouch::Touches;
+    return EdgeTouch::Pierced;
   }
   // Coplanar: clip combinatorially.  Outside some side as a whole: no touch.
   const InPlaneSide left_of(scene, f);
@@ -122,7 +123,8 @@ struct Generators::EdgeFaces {
   int a = -1, b = -1;                       // those that bound a gap of more than half
   bool reflex = false;                      // of a closed object: that gap is inside
   bool touched = false, foot = false;
-  bool many = false;  // polygon mode: more than two half-planes
+  std::vector<std::int32_t> pierced_by = {};  // as of Ridge
+  bool many = false;                          // polygon mode: more than two half-planes
   [[nodiscard]] bool has_gap() const { return a >= 0 && b >= 0; }
 };
 
@@ -136,7 +138,7 @@ void Generators::find_ridges() {
     const Point& e1 = s.point(e.points[1]);
     // The third point of each face at the edge gives the direction of its half-plane.
     EdgeFaces at;
-    auto& [thirds, faces, a, b, reflex, is_touched, is_foot, many] = at;
+    auto& [thirds, faces, a, b, reflex, is_touched, is_foot, pierced_by, many] = at;
     for (const Edge::Side& side : e.sides) {
       for (const int p : s.face_points(side.face)) {
         if (collinear(e0, e1, s.point(p))) continue;
@@ -218,6 +220,7 @@ void Generators::find_ridges() {
           }
           const EdgeTouch touch = touch_of(s, face_planes_[f], f, e0, e1);
           touched = std::max(touched, touch);
+          if (touch == EdgeTouch::Pierced) pierced_by.push_back(f);
           if (touch == EdgeTouch::ContainsInside) grounds.push_back(f);
           if (touch == EdgeTouch::Touches && face_planes_[f](e0) == Sign::Zero &&
               face_planes_[f](e1) == Sign::Zero) {
@@ -238,7 +241,8 @@ void Generators::find_ridges() {
           });
         });
     is_foot = foot;
-    is_touched = touched == EdgeTouch::Touches || foot;
+    is_touched = touched == EdgeTouch::Pierced || touched == EdgeTouch::Touches || foot;
+    if (polygon() || touched != EdgeTouch::Pierced) pierced_by.clear();
     if (covered && !foot) continue;
     const int edge = static_cast<int>(i);
     // Edges of several objects that coincide are one generator.
@@ -266,6 +270,7 @@ bool Generators::join_ridge(int edge, const EdgeFaces& at) {
   if (ridges_.empty() || ridges_.back().points != e.points) return false;
   Ridge& ridge = ridges_.back();
   ridge.touched = true;
+  ridge.pierced_by.clear();
   ridge.objects.push_back(e.object);
   const auto facets = facets_of(*scene_, at.faces);
   ridge.all_facets.insert(ridge.all_facets.end(), facets.begin(), facets.end());
@@ -327,6 +332,7 @@ void Generators::add_ridge(int edge, const EdgeFaces& at, std::vector<Box>& boxe
                      {s.faces()[at.faces[a]].facet, s.faces()[at.faces[b]].facet},
                      facets_of(s, at.faces),
                      at.touched});
+  ridges_.back().pierced_by = at.pierced_by;
   boxes.push_back(box_of(std::array<Point, 2>{e0, e1}));
   if (!polygon()) return;
   Ridge& ridge = ridges_.back();

@@ -19,6 +19,7 @@ struct VertexViewer::PairLists {
   std::vector<std::int32_t> edge_facets;
   std::vector<CutInterval> ending;       // polygon mode: the viewpoint is one
   std::vector<std::uint8_t> piece_ends;  // of each piece of the open part, so split
+  std::vector<Cut> pierced;              // where Ridge::pierced_by meet the edge
 
   void clear() {
     cuts.clear();
@@ -27,6 +28,7 @@ struct VertexViewer::PairLists {
     edge_facets.clear();
     ending.clear();
     piece_ends.clear();
+    pierced.clear();
   }
 };
 

@@ -7,6 +7,7 @@
 #include "skeleton/drawn_internal.h"
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/opposite_edges_internal.h"
+#include "skeleton/plane_values_internal.h"
 #include "skeleton/vertex_pair_internal.h"
 #include "skeleton/vertex_view_internal.h"
 
@@ -326,7 +327,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     pair.lists.edge_facets.push_back(scene_.faces()[side.face].facet);
   }
   pair.mild = a == Sign::Zero || b == Sign::Zero;
-  pair.degenerate = r.touched || star_->in_plane_only;
+  pair.degenerate = (r.touched && r.pierced_by.empty()) || star_->in_plane_only;
   pair.edge_ends = contact == EdgeContact::End;
   pair.share_facet = g_.polygon() && share(r.all_facets, star_->facets);
   // Those that end there are left out.
@@ -342,6 +343,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     open = pair.closed.complement();
     if (open.empty()) return;
   }
+  if (pierced_inside(pair, open)) pair.degenerate = true;
   if (pair.mild || pair.degenerate) list_faces(pair);
   pair.degenerate = pair.degenerate || (pair.mild && touching_across(pair));
   if (pair.degenerate) {
@@ -364,8 +366,11 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     arc.range = {rounded_parameter(scene_, {pair.e0, pair.e1}, i.from),
                  rounded_parameter(scene_, {pair.e0, pair.e1}, i.to)};
     const auto node = [&](const Cut& cut) {
-      return mild ? contact_node(g_, *star_, r, pair.lists.faces, cut, arc.ends, out)
-                  : end_node(pair, cut, arc.ends, out);
+      const bool pierced = is_pierced_at(pair, cut);
+      if (pierced && !mild && star_->convex) return pierced_node(pair, cut, out);
+      if (!mild && !pierced) return end_node(pair, cut, arc.ends, out);
+      list_faces(pair);
+      return contact_node(g_, *star_, r, pair.lists.faces, cut, arc.ends, out);
     };
     if (pair.share_facet && arc.ends[0]) continue;
     // Where the kind of contact changes, one line ends two arcs.
@@ -436,6 +441,44 @@ bool VertexViewer::ends_are_simple(const Pair& pair,
   return std::all_of(open.begin(), open.end(), [&](const CutInterval& i) {
     return simple(i.from) && simple(i.to);
   });
+}
+
+// Lists where foreign faces meet the edge; true where that is inside an open part.
+bool VertexViewer::pierced_inside(Pair& pair, std::span<const CutInterval> open) const {
+  const LineThrough line{pair.e0, pair.e1};
+  const auto before = [&](const Cut& a, const Cut& b) {
+    return compare(scene_, line, a, b) == Sign::Negative;
+  };
+  for (const int face : pair.r->pierced_by) {
+    const PlaneValues v = plane_values(g_.face_plane(face), pair.e0, pair.e1);
+    pair.lists.pierced.push_back(make_cut(CutKind::Pierce, scene_.faces()[face].facet,
+                                          plane_points(scene_, face), v.at0, v.at1));
+  }
+  return std::any_of(
+      pair.lists.pierced.begin(), pair.lists.pierced.end(), [&](const Cut& at) {
+        return std::any_of(open.begin(), open.end(), [&](const CutInterval& i) {
+          return before(i.from, at) && before(at, i.to);
+        });
+      });
+}
+
+bool VertexViewer::is_pierced_at(const Pair& pair, const Cut& cut) const {
+  return std::any_of(pair.lists.pierced.begin(), pair.lists.pierced.end(),
+                     [&](const Cut& at) {
+                       return compare(scene_, {pair.e0, pair.e1}, at, cut) == Sign::Zero;
+                     });
+}
+
+// The node where the edge enters a face: the line ends there, and touches nothing else
+// between, since no other cut is there.
+std::uint32_t VertexViewer::pierced_node(const Pair& pair, const Cut& cut,
+                                         VertexView& out) const {
+  const Generator generators[] = {{GeneratorKind::Vertex, point_},
+                                  {GeneratorKind::Edge, pair.r->edge}};
+  const bool self = own_objects_.size() == 1 && own_objects_ == pair.r->objects;
+  const Rational s = exact_parameter(scene_, {pair.e0, pair.e1}, cut);
+  const ExactPoint x = along(exact_point(pair.e0), exact_point(pair.e1), s);
+  return out.add_node(NodeKind::Degenerate, self, true, generators, {at_, rounded(x)});
 }
 
 std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,

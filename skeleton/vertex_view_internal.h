@@ -113,6 +113,9 @@ class VertexViewer {
   void split_at_ends(Pair& pair, std::vector<CutInterval>& open) const;
   [[nodiscard]] bool ends_are_simple(const Pair& pair,
                                      std::span<const CutInterval> open) const;
+  [[nodiscard]] bool pierced_inside(Pair& pair, std::span<const CutInterval> open) const;
+  [[nodiscard]] bool is_pierced_at(const Pair& pair, const Cut& cut) const;
+  std::uint32_t pierced_node(const Pair& pair, const Cut& cut, VertexView& out) const;
   std::uint32_t end_node(const Pair& pair, const Cut& cut,
                          const std::array<bool, 2>& ends, VertexView& out) const;
   void add_line_ups(VertexView& out);  // EVE
