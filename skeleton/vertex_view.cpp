@@ -367,7 +367,9 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
                  rounded_parameter(scene_, {pair.e0, pair.e1}, i.to)};
     const auto node = [&](const Cut& cut) {
       const bool pierced = is_pierced_at(pair, cut);
-      if (pierced && !mild && star_->convex) return pierced_node(pair, cut, out);
+      if (pierced && !mild && star_->convex && cut.kind == CutKind::Pierce) {
+        return pierced_node(pair, cut, out);
+      }
       if (!mild && !pierced) return end_node(pair, cut, arc.ends, out);
       list_faces(pair);
       return contact_node(g_, *star_, r, pair.lists.faces, cut, arc.ends, out);

@@ -67,9 +67,9 @@ double processor_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// Of arcs and nodes with all that is told of them, in their order (FNV-1a).  An arc's
-/// range is rounded to 2^-28: its last bits depend on which of several cuts that coincide
-/// is told.
+/// Of arcs and nodes with all that is told of them, in their order (FNV-1a).  Ranges and
+/// points are rounded to 2^-28: their last bits depend on which of several cuts that
+/// coincide is told.
 std::uint64_t hash_of(const Skeleton& skeleton) {
   std::uint64_t hash = 0xcbf29ce484222325;
   const auto add = [&](const auto& value) {
@@ -79,7 +79,7 @@ std::uint64_t hash_of(const Skeleton& skeleton) {
   };
   const auto add_arc = [&](const auto& arc) {
     for (const bool flag : {arc.self, arc.ends[0], arc.ends[1]}) add(flag);
-    for (const double x : arc.range) add(std::floor(x * 0x1p28 + 0.3));
+    for (const double x : arc.range) add(std::floor(x * 0x1p28 + 0.317));
     for (const std::uint32_t node : arc.nodes) add(node);
   };
   for (const SkeletonArc& arc : skeleton.arcs) {
@@ -95,7 +95,9 @@ std::uint64_t hash_of(const Skeleton& skeleton) {
     for (const bool flag : {node.self, node.end, node.second, node.ends[0], node.ends[1]})
       add(flag);
     for (const Generator& x : skeleton.generators(node)) add(x.kind), add(x.id);
-    for (const Point& p : node.segment) add(p[0]), add(p[1]), add(p[2]);
+    for (const Point& p : node.segment) {
+      for (const double x : p) add(std::floor(x * 0x1p28 + 0.317));
+    }
   }
   return hash;
 }
