@@ -5,6 +5,7 @@
 #include "linespace/bilinear_cell_internal.h"
 #include "linespace/matrix_game_internal.h"
 #include "linespace/polynomials_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -192,6 +193,7 @@ std::vector<Polynomial2> curves_of(std::span<const IntegerForm> forms) {
   for (std::size_t i = 0; i < forms.size(); ++i) {
     for (std::size_t j = i + 1; j < rows.size(); ++j) {
       for (std::size_t k = j + 1; k < rows.size(); ++k) {
+        hear_stop();
         const Curve f = determinant(rows[i], rows[j], rows[k]);
         if (!has_no_zero(f)) curves.push_back(f.affine);
       }
@@ -205,17 +207,14 @@ std::vector<Polynomial2> curves_of(std::span<const IntegerForm> forms) {
 /// Calls visit(p) for a point of each cell until it returns false.
 class Arrangement {
  public:
-  Arrangement(std::span<const Polynomial2> curves, const std::function<bool()>& stop)
-      : stop_(stop) {
+  explicit Arrangement(std::span<const Polynomial2> curves) {
     basis_.add({{}, {1}});       // y = 0
     basis_.add({{-1, 1}, {1}});  // x + y = 1
     for (const Polynomial2& f : curves) basis_.add(f);
   }
 
-  /// False when stopped.
   template <class Visit>
-  bool sample(Visit visit) const {
-    if (stop_ && stop_()) return false;
+  void sample(Visit visit) const {
     const std::vector<Polynomial1> critical = critical_x();
     for (const Dyadic& x : separating_points(critical, {0, 0}, {1, 0})) {
       std::vector<Polynomial1> along_y;
@@ -224,11 +223,10 @@ class Arrangement {
       for (const Dyadic& y : separating_points(along_y, {0, 0}, {one - x.n, x.k})) {
         const int k = std::max(x.k, y.k);
         const Integer u = x.n << (k - x.k), v = y.n << (k - y.k);
-        if (!visit(IntegerWeights{u, v, (Integer(1) << k) - u - v})) return true;
+        hear_stop_now();
+        if (!visit(IntegerWeights{u, v, (Integer(1) << k) - u - v})) return;
       }
-      if (stop_ && stop_()) return false;
     }
-    return true;
   }
 
  private:
@@ -247,7 +245,6 @@ class Arrangement {
   }
 
   CurveBasis basis_;
-  const std::function<bool()>& stop_;
 };
 
 ExactSegment segment(const IntegerWeights& p, const std::array<Rational, 3>& q) {
@@ -291,8 +288,7 @@ std::optional<ExactSegment> probe_cell(std::span<const PositiveForm> positive) {
 
 // Only forms that have ruled something out are looked at; a segment for these that
 // another form forbids brings that form in.
-CellDecision decide_cell(std::span<const PositiveForm> positive, int most_curves,
-                         const std::function<bool()>& stop) {
+CellDecision decide_cell(std::span<const PositiveForm> positive, int most_curves) {
   const std::vector<IntegerForm> forms = integer_forms(positive);
   Fibre fibre;
   CellDecision decision{CellDecision::Outcome::Empty, {}};
@@ -319,12 +315,11 @@ CellDecision decide_cell(std::span<const PositiveForm> positive, int most_curves
       return {CellDecision::Outcome::TooDear, {}};
     }
     bool again = false;
-    const bool finished = Arrangement(curves, stop).sample([&](const IntegerWeights& p) {
+    Arrangement(curves).sample([&](const IntegerWeights& p) {
       if (!fibre.solve(some, p).q) return true;
       again = settled(p);
       return !again;
     });
-    if (!finished) return {CellDecision::Outcome::TooDear, {}};
     if (!again) return decision;
   }
   return decision;

@@ -14,7 +14,6 @@
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -39,10 +38,9 @@ struct CellDecision {
   std::optional<ExactSegment> segment;  ///< Found
 };
 
-/// Found or Empty; TooDear when more than `most_curves` curves would have to be arranged,
-/// or `stop` returned true.
+/// Found or Empty; TooDear when more than `most_curves` curves would have to be arranged.
+/// Hears a stop (stop_scope_internal.h).
 [[nodiscard]] CellDecision decide_cell(std::span<const PositiveForm> forms,
-                                       int most_curves,
-                                       const std::function<bool()>& stop);
+                                       int most_curves);
 
 }  // namespace sightline::internal

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "linespace/bvh_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -148,6 +149,7 @@ Bvh::Bvh(std::span<const Box> boxes, int leaf_size) : items_(boxes.size()) {
   nodes_.emplace_back();
   std::vector<Work> todo{{0, 0, static_cast<std::uint32_t>(boxes.size()), 0}};
   while (!todo.empty()) {
+    hear_stop();
     const Work w = todo.back();
     todo.pop_back();
     Box box = kEmptyBox;

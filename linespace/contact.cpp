@@ -31,6 +31,7 @@
 #include <utility>
 
 #include "linespace/contact_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -490,6 +491,7 @@ class MotionSearch {
     closed_.assign(count, std::vector<char>(2 * rays_.size(), 1));
     for (std::size_t i = 0; i < count; ++i) {
       for (int c = 0; c < ray_count(); ++c) {
+        hear_stop();
         closed_[i][2 * c + 1] =
             std::any_of(sectors_at_[i].begin(), sectors_at_[i].end(),
                         [&](const SectorAt& s) { return contains_after(s, rays_[c]); });
@@ -502,6 +504,7 @@ class MotionSearch {
         if (!same_direction(*direction.front()->ray, rays_[r])) continue;
         fins_[r] = direction;
         for (std::size_t gap = 0; gap + 1 < count; ++gap) {
+          hear_stop_now();
           up_[gap][r] =
               std::any_of(direction.begin(), direction.end(), [&](const Fin* f) {
                 return f->from <= instants_[gap] && f->to > instants_[gap];
@@ -558,6 +561,7 @@ class MotionSearch {
     for (std::size_t i = 0; i < count; ++i) {
       bool bound_here = false;
       for (int r = 0; r < ray_count(); ++r) {
+        hear_stop_now();
         const Openings open = openings(sense, rays_[r], instants_[i], sectors_at_[i],
                                        fins_[r], corner_time_, false);
         closed_[i][2 * r] = open.intervals.empty();
@@ -597,6 +601,7 @@ class MotionSearch {
     passable_.assign(count * static_cast<std::size_t>(size() * (half() + 1)), 0);
     for (std::size_t i = count; i-- > 0;) {
       for (int c = 0; c < size(); ++c) {
+        hear_stop();
         if (closed_[i][c]) continue;
         for (int turned = 0; turned <= half(); ++turned) {
           passable(i, c, turned) =
@@ -628,6 +633,7 @@ class MotionSearch {
 
   // Continues the places found so far, having turned by `turned` in all.
   bool extend(int sense, int turned) {
+    hear_stop();
     const std::size_t i = places_.size();
     if (i == instants_.size()) return slopes_fit(sense);
     return any_step(sense, i - 1, places_.back(), turned, [&](int next, int step) {
@@ -1150,7 +1156,10 @@ void LineScan::Impl::meet_in_plane(int face, std::span<const int> ids) {
 }
 
 void LineScan::Impl::scan(std::span<const int> faces) {
-  for (const int f : faces) meet(f);
+  for (const int f : faces) {
+    hear_stop();
+    meet(f);
+  }
   group();
 }
 
@@ -1236,6 +1245,7 @@ bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi) 
   std::vector<SectorAt> sectors;
   std::vector<int> at;  // position of each sector
   for (const Hit& h : mine) {
+    hear_stop();
     if (h.obstacle != Obstacle::Full && h.obstacle != Obstacle::Sector) continue;
     if (!inside(h.from)) continue;
     if (h.obstacle == Obstacle::Full) return true;
@@ -1274,6 +1284,7 @@ bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi) 
     };
     for (const SectorAt& s : now) {
       for (const Corner* c : {s.start, s.end}) {
+        hear_stop();
         if (std::none_of(rays.begin(), rays.end(),
                          [&](const Ray* r) { return same_direction(*r, c->u); }) &&
             matters(c->u)) {
@@ -1285,10 +1296,12 @@ bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi) 
 
   std::vector<Fin> fins;
   for (const Hit& h : mine) {
+    hear_stop();
     if (h.loop >= 0) add_fins(h, lo, hi, fins);
   }
   std::vector<std::vector<const Fin*>> directions;
   for (const Fin& f : fins) {
+    hear_stop();
     const auto known = std::find_if(
         directions.begin(), directions.end(),
         [&](const auto& d) { return same_direction(*d.front()->ray, *f.ray); });
@@ -1315,6 +1328,7 @@ bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi) 
     for (const Rational& end : ends) {
       bool before = false, after = false;
       for (const Fin* f : along) {
+        hear_stop();
         before |= f->from < end && end <= f->to;
         after |= f->from <= end && end < f->to;
       }

@@ -5,6 +5,7 @@
 #include "linespace/emptiness_internal.h"
 #include "linespace/matrix_game_internal.h"
 #include "linespace/predicates_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -238,6 +239,7 @@ class Emptiness::Proofs {
       (game_.lambda()[r] != 0 ? rows : others).push_back(static_cast<int>(r));
     }
     while (true) {
+      hear_stop_now();
       if (rows.empty()) rows.swap(others);
       ++counts_.exact_games;
       ExactGame game;

@@ -13,6 +13,7 @@
 #include "linespace/scene_internal.h"
 #include "linespace/seams.h"
 #include "linespace/seams_internal.h"
+#include "linespace/stage_internal.h"
 #include "linespace/unit_scale_internal.h"
 
 namespace sightline {
@@ -35,9 +36,13 @@ struct FacePieces {
   /// The faces, and behind them what lies around each one.
   FacePieces(const Scene& scene, double seam) {
     const int count = static_cast<int>(scene.faces().size());
-    for (int f = 0; f < count; ++f) add(polygon_of(scene, f), f);
+    for (int f = 0; f < count; ++f) {
+      hear_stop();
+      add(polygon_of(scene, f), f);
+    }
     if (seam == 0) return;
     for (int f = 0; f < count; ++f) {
+      hear_stop();
       for (Polygon& flap : flaps(polygons[f], seam / 2)) add(std::move(flap), f);
     }
   }
@@ -96,6 +101,7 @@ struct FaceVisibility::Impl {
   OccluderSet set;           // the pieces times 2^scaled_by
   std::vector<int> face_of;  // per piece
 
+  // Hears a stop of the thread's own scopes.
   Impl(const Scene& s, double seam) : Impl(s, seam > 0, FacePieces(s, seam)) {}
   Impl(const Scene& s, bool is_grown, FacePieces pieces)
       : scene(s),
@@ -192,8 +198,9 @@ FaceVisibility::Impl::PairDecision FaceVisibility::Impl::decide_pair(
   return result;
 }
 
-FaceVisibility::FaceVisibility(const Scene& scene, double seam) {
+FaceVisibility::FaceVisibility(const Scene& scene, const Request& request, double seam) {
   check_seam(seam);
+  const Stage stage(request, "faces");
   impl_ = std::make_unique<Impl>(scene, seam);
 }
 FaceVisibility::~FaceVisibility() = default;
@@ -273,8 +280,8 @@ class GroupQuestion {
       count_predicates(before);
       ++done;
       if (request_.progress) {
-        request_.progress(
-            share(static_cast<double>(done) / static_cast<double>(as_.size())));
+        request_.progress("pairs of faces", share(static_cast<double>(done) /
+                                                  static_cast<double>(as_.size())));
       }
     };
     arena.execute([&] {

@@ -23,7 +23,7 @@ void refuse_line(const std::string& path, std::size_t line, const std::string& m
   throw InvalidInput(path + ":" + std::to_string(line) + ": " + message);
 }
 
-std::string load_file(const std::string& path) {
+std::string load_file(const std::string& path, Stage& stage) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) refuse(path, "is a folder");
   std::ifstream in(path, std::ios::binary);
@@ -31,6 +31,7 @@ std::string load_file(const std::string& path) {
   std::string bytes;
   constexpr std::size_t kBlock = 1 << 20;
   for (;;) {
+    stage.check(0);
     const std::size_t size = bytes.size();
     bytes.resize(size + kBlock);
     in.read(bytes.data() + size, kBlock);
@@ -102,6 +103,7 @@ std::string_view without_byte_order_mark(std::string_view text) {
 
 bool LineReader::next() {
   if (rest_.empty()) return false;
+  stage_.at(size_ - rest_.size(), size_);
   const std::size_t end = rest_.find_first_of("\r\n");
   line_ = rest_.substr(0, end);
   if (end == std::string_view::npos) {
@@ -199,7 +201,7 @@ std::string extension_of(const std::string& path) {
 
 struct Format {
   const char* extension;
-  PolygonSoup (*read)(const std::string& path, std::string_view bytes);
+  PolygonSoup (*read)(const std::string& path, std::string_view bytes, Stage& stage);
 };
 constexpr Format kFormats[] = {
 #ifdef SIGHTLINE_HAS_TINYGLTF
@@ -221,18 +223,19 @@ void check_extension(const std::string& path, const std::string& extension) {
 }  // namespace
 }  // namespace internal
 
-PolygonSoup read_mesh(const std::string& path) {
+PolygonSoup read_mesh(const std::string& path, const Request& request) {
+  internal::Stage stage(request, "reading");
   const std::string extension = internal::extension_of(path);
   const auto* const format =
       std::find_if(std::begin(internal::kFormats), std::end(internal::kFormats),
                    [&](const auto& f) { return extension == f.extension; });
   PolygonSoup soup;
   if (format != std::end(internal::kFormats)) {
-    const std::string bytes = internal::load_file(path);
-    soup = format->read(path, bytes);
+    const std::string bytes = internal::load_file(path, stage);
+    soup = format->read(path, bytes, stage);
   } else {
     internal::check_extension(path, extension);
-    soup = internal::read_with_assimp(path, extension);
+    soup = internal::read_with_assimp(path, extension, stage);
   }
   soup.source = path;
   if (soup.polygons.empty()) internal::refuse(path, "no faces");

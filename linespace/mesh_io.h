@@ -27,6 +27,7 @@
 #include <string>
 #include <vector>
 
+#include "linespace/request.h"
 #include "linespace/scene.h"
 
 namespace sightline {
@@ -37,8 +38,9 @@ namespace sightline {
 /// meshes "left out" of the scene that is read); indices are not checked against the
 /// vertices where Scene will do so, save for OBJ, whose message can name the line. Throws
 /// InvalidInput with one line that names file and line, byte or element; nothing is
-/// allocated beyond a small multiple of the file's size.
-[[nodiscard]] PolygonSoup read_mesh(const std::string& path);
+/// allocated beyond a small multiple of the file's size.  Of the request, budget, stop
+/// and progress count; throws Stopped.
+[[nodiscard]] PolygonSoup read_mesh(const std::string& path, const Request& request = {});
 
 /// Extensions that read_mesh knows in this build, in lower case, without dot, sorted.
 [[nodiscard]] std::vector<std::string> readable_extensions();

@@ -160,12 +160,14 @@ PolygonSoup read_scene(const std::string& path, bool is_ifc) {
 
 }  // namespace
 
-PolygonSoup read_with_assimp(const std::string& path, const std::string& extension) {
-  const std::string bytes = load_file(path);
+PolygonSoup read_with_assimp(const std::string& path, const std::string& extension,
+                             Stage& stage) {
+  const std::string bytes = load_file(path, stage);
   const bool is_ifc = extension == "ifc";
-  if (is_ifc) check_step(path, bytes);
+  if (is_ifc) check_step(path, bytes, stage);
   return read_in_child(
-      path, bytes.size(), [] {}, [&] { return read_scene(path, is_ifc); });
+      path, bytes.size(), [&] { stage.check(0); },
+      [&] { return read_scene(path, is_ifc); });
 }
 
 std::vector<std::string> assimp_extensions() {
@@ -174,7 +176,8 @@ std::vector<std::string> assimp_extensions() {
 
 #else
 
-PolygonSoup read_with_assimp(const std::string& path, const std::string& extension) {
+PolygonSoup read_with_assimp(const std::string& path, const std::string& extension,
+                             Stage&) {
   refuse(path, "the format " + quoted(extension) +
                    " needs assimp, which this build is without");
 }

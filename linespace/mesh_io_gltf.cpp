@@ -336,8 +336,9 @@ Eigen::Affine3d composed(const Eigen::Affine3d& outer, const Eigen::Affine3d& in
 class GltfReader {
  public:
   // `bytes`: of the file, its buffers not counted.
-  GltfReader(const std::string& path, const tinygltf::Model& model, std::size_t bytes)
-      : path_(path), model_(model), bytes_(bytes) {
+  GltfReader(const std::string& path, const tinygltf::Model& model, std::size_t bytes,
+             Stage& stage)
+      : path_(path), model_(model), bytes_(bytes), stage_(stage) {
     for (const auto& buffer : model.buffers) bytes_ += buffer.data.size();
   }
 
@@ -528,8 +529,12 @@ class GltfReader {
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     const int first_vertex = static_cast<int>(soup_.vertices.size());
-    for (const int v : used) soup_.vertices.push_back(to_world * position(positions, v));
+    for (const int v : used) {
+      stage_.at(0, 1);
+      soup_.vertices.push_back(to_world * position(positions, v));
+    }
     for (std::size_t f = first_face; f < soup_.polygons.size(); ++f) {
+      stage_.at(0, 1);
       auto& polygon = soup_.polygons[f];
       for (int& corner : polygon) {
         const auto at = std::lower_bound(used.begin(), used.end(), corner);
@@ -562,6 +567,7 @@ class GltfReader {
     }
     std::vector<int> corners(count);
     for (std::size_t i = 0; i < count; ++i) {
+      stage_.at(0, 1);
       const std::size_t corner = indices ? indices->whole(i) : i;
       if (corner >= positions.count()) {
         positions.fail("index " + std::to_string(i) + " names vertex " +
@@ -616,6 +622,7 @@ class GltfReader {
   const std::string& path_;
   const tinygltf::Model& model_;
   std::size_t bytes_;
+  Stage& stage_;
   PolygonSoup soup_;
   NodeGroups groups_;
   std::vector<int> parent_;  // per node, -1 for none
@@ -641,12 +648,14 @@ Eigen::Matrix3d settled(Eigen::Matrix3d linear) {
   return is_turn ? turn : linear;
 }
 
-PolygonSoup read_gltf(const std::string& path, std::string_view bytes) {
+PolygonSoup read_gltf(const std::string& path, std::string_view bytes, Stage& stage) {
   const CheckedGltf checked = check_gltf(path, bytes);
   try {
     const tinygltf::Model model = load_model(path, checked);
-    return GltfReader(path, model, bytes.size()).read();
+    return GltfReader(path, model, bytes.size(), stage).read();
   } catch (const InvalidInput&) {
+    throw;
+  } catch (const Stopped&) {
     throw;
   } catch (const std::bad_alloc&) {
     throw;
@@ -657,7 +666,7 @@ PolygonSoup read_gltf(const std::string& path, std::string_view bytes) {
 
 #else
 
-PolygonSoup read_gltf(const std::string& path, std::string_view) {
+PolygonSoup read_gltf(const std::string& path, std::string_view, Stage&) {
   refuse(path, "glTF needs tinygltf, which this build is without");
 }
 

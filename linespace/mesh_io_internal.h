@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "linespace/mesh_io.h"
+#include "linespace/stage_internal.h"
 
 namespace sightline::internal {
 
@@ -17,7 +18,7 @@ namespace sightline::internal {
                               const std::string& message);
 
 /// The bytes of a file that is not empty.
-[[nodiscard]] std::string load_file(const std::string& path);
+[[nodiscard]] std::string load_file(const std::string& path, Stage& stage);
 
 /// The text without the UTF-8 byte order mark that editors of Windows put before it.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view text);
@@ -25,8 +26,13 @@ namespace sightline::internal {
 /// Walks over the lines of a text; `\r\n` and `\r` end a line as `\n` does.
 class LineReader {
  public:
-  LineReader(const std::string& path, std::string_view text, std::size_t first_line = 1)
-      : path_(path), rest_(text), next_number_(first_line) {}
+  LineReader(const std::string& path, std::string_view text, Stage& stage,
+             std::size_t first_line = 1)
+      : path_(path),
+        stage_(stage),
+        rest_(text),
+        size_(text.size()),
+        next_number_(first_line) {}
 
   /// Moves on to the next line; false at the end of the text.
   bool next();
@@ -64,7 +70,9 @@ class LineReader {
 
  private:
   const std::string& path_;
+  Stage& stage_;
   std::string_view rest_, line_;
+  std::size_t size_;  // of the whole text
   std::size_t next_number_, number_ = 0;
 };
 
@@ -87,22 +95,27 @@ class LineReader {
 void append_strip_triangle(std::vector<std::vector<int>>& polygons,
                            std::span<const int> strip);
 
-[[nodiscard]] PolygonSoup read_obj(const std::string& path, std::string_view text);
-[[nodiscard]] PolygonSoup read_off(const std::string& path, std::string_view text);
-[[nodiscard]] PolygonSoup read_ply(const std::string& path, std::string_view bytes);
-[[nodiscard]] PolygonSoup read_gltf(const std::string& path, std::string_view bytes);
-[[nodiscard]] PolygonSoup read_stl(const std::string& path, std::string_view bytes);
+[[nodiscard]] PolygonSoup read_obj(const std::string& path, std::string_view text,
+                                   Stage& stage);
+[[nodiscard]] PolygonSoup read_off(const std::string& path, std::string_view text,
+                                   Stage& stage);
+[[nodiscard]] PolygonSoup read_ply(const std::string& path, std::string_view bytes,
+                                   Stage& stage);
+[[nodiscard]] PolygonSoup read_gltf(const std::string& path, std::string_view bytes,
+                                    Stage& stage);
+[[nodiscard]] PolygonSoup read_stl(const std::string& path, std::string_view bytes,
+                                   Stage& stage);
 
 /// Whether IFC 2x3 has an entity or a type of that name, in capital letters.
 [[nodiscard]] bool is_ifc_name(std::string_view name);
 
 /// Refuses an IFC file that ends early, is no text, names records that it lacks, or has
 /// records of a name that IFC 2x3 does not have: assimp would leave those out.
-void check_step(const std::string& path, std::string_view text);
+void check_step(const std::string& path, std::string_view text, Stage& stage);
 
 /// Through assimp, for an extension of assimp_extensions.
 [[nodiscard]] PolygonSoup read_with_assimp(const std::string& path,
-                                           const std::string& extension);
+                                           const std::string& extension, Stage& stage);
 [[nodiscard]] std::vector<std::string> assimp_extensions();
 
 }  // namespace sightline::internal

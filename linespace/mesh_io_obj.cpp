@@ -38,8 +38,8 @@ bool takes_names(std::string_view word) {
 
 class ObjReader {
  public:
-  ObjReader(const std::string& path, std::string_view text)
-      : path_(path), lines_(path, without_byte_order_mark(text)) {}
+  ObjReader(const std::string& path, std::string_view text, Stage& stage)
+      : path_(path), stage_(stage), lines_(path, without_byte_order_mark(text), stage) {}
 
   PolygonSoup read() {
     while (lines_.next_filled()) {
@@ -79,7 +79,7 @@ class ObjReader {
       joined.append(part).push_back(' ');
       if (!more || !lines_.next()) break;
     }
-    LineReader statement(path_, joined, first);
+    LineReader statement(path_, joined, stage_, first);
     if (!statement.next_filled()) return;
     cut_comment(statement);
     if (!statement.rest().empty()) read_statement(statement);
@@ -176,6 +176,7 @@ class ObjReader {
   }
 
   const std::string& path_;
+  Stage& stage_;
   LineReader lines_;
   PolygonSoup soup_;
   std::unordered_map<std::string, int> numbers_;
@@ -188,8 +189,8 @@ class ObjReader {
 
 }  // namespace
 
-PolygonSoup read_obj(const std::string& path, std::string_view text) {
-  return ObjReader(path, text).read();
+PolygonSoup read_obj(const std::string& path, std::string_view text, Stage& stage) {
+  return ObjReader(path, text, stage).read();
 }
 
 }  // namespace sightline::internal

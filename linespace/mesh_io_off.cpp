@@ -57,8 +57,8 @@ void check_count(const LineReader& lines, long long count, std::size_t bytes,
 
 }  // namespace
 
-PolygonSoup read_off(const std::string& path, std::string_view text) {
-  LineReader lines(path, without_byte_order_mark(text));
+PolygonSoup read_off(const std::string& path, std::string_view text, Stage& stage) {
+  LineReader lines(path, without_byte_order_mark(text), stage);
   pass_header(path, lines);
   const long long vertex_count = lines.integer("the number of vertices");
   const long long face_count = lines.integer("the number of faces");

@@ -245,8 +245,8 @@ bool is_strip(const Element& element, const Property& property) {
 template <class Values>
 class BodyReader {
  public:
-  BodyReader(const std::string& path, const Header& header, Values values)
-      : path_(path), header_(header), values_(std::move(values)) {}
+  BodyReader(const std::string& path, const Header& header, Values values, Stage& stage)
+      : path_(path), header_(header), values_(std::move(values)), stage_(stage) {}
 
   PolygonSoup read() {
     for (const Element& element : header_.elements) {
@@ -255,7 +255,10 @@ class BodyReader {
                           quoted(element.name) + ", more than the file can hold");
       }
       if (element.properties.empty()) continue;
-      for (long long i = 0; i < element.count; ++i) read_element(element, i);
+      for (long long i = 0; i < element.count; ++i) {
+        stage_.at(static_cast<std::size_t>(i), static_cast<std::size_t>(element.count));
+        read_element(element, i);
+      }
     }
     values_.finish_file();
     for (std::size_t f = 0; f < soup_.polygons.size(); ++f) {
@@ -343,6 +346,7 @@ class BodyReader {
   const std::string& path_;
   const Header& header_;
   Values values_;
+  Stage& stage_;
   PolygonSoup soup_;
   std::string name_;
 };
@@ -367,18 +371,18 @@ void check_elements(const std::string& path, const Header& header) {
 
 }  // namespace
 
-PolygonSoup read_ply(const std::string& path, std::string_view bytes) {
+PolygonSoup read_ply(const std::string& path, std::string_view bytes, Stage& stage) {
   bytes = without_byte_order_mark(bytes);
-  LineReader lines(path, bytes);
+  LineReader lines(path, bytes, stage);
   const Header header = read_header(path, lines);
   check_elements(path, header);
   if (header.encoding == Encoding::Ascii) {
-    return BodyReader(path, header, AsciiValues(lines)).read();
+    return BodyReader(path, header, AsciiValues(lines), stage).read();
   }
   const bool swap = (header.encoding == Encoding::BigEndian) !=
                     (std::endian::native == std::endian::big);
   const std::string_view body = bytes.substr(bytes.size() - lines.bytes_left());
-  return BodyReader(path, header, BinaryValues(path, body, swap)).read();
+  return BodyReader(path, header, BinaryValues(path, body, swap), stage).read();
 }
 
 }  // namespace sightline::internal

@@ -14,14 +14,15 @@ constexpr std::string_view kLastWord = "END-ISO-10303-21;";
 
 class StepChecker {
  public:
-  StepChecker(const std::string& path, std::string_view text)
-      : path_(path), text_(text) {}
+  StepChecker(const std::string& path, std::string_view text, Stage& stage)
+      : path_(path), stage_(stage), text_(text) {}
 
   void run() {
     skip_blanks();
     if (!text_.substr(at_).starts_with(kFirstWord)) refuse_here("no STEP header");
     // Statements of the header and of the data alike end with a semicolon.
     while (!text_.substr(at_).starts_with(kLastWord)) {
+      stage_.at(at_, text_.size());
       check_statement();
       skip_blanks();
       if (at_ >= text_.size()) refuse_here("ends before END-ISO-10303-21");
@@ -117,6 +118,7 @@ class StepChecker {
   }
 
   const std::string& path_;
+  Stage& stage_;
   std::string_view text_;
   std::size_t at_ = 0, line_ = 1;
   std::vector<long long> defined_;
@@ -125,8 +127,8 @@ class StepChecker {
 
 }  // namespace
 
-void check_step(const std::string& path, std::string_view text) {
-  StepChecker(path, text).run();
+void check_step(const std::string& path, std::string_view text, Stage& stage) {
+  StepChecker(path, text, stage).run();
 }
 
 }  // namespace sightline::internal

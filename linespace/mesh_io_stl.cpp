@@ -32,12 +32,13 @@ void append_triangle(PolygonSoup& soup) {
 }
 
 PolygonSoup read_binary(const std::string& path, std::string_view bytes,
-                        std::uint32_t count) {
+                        std::uint32_t count, Stage& stage) {
   if (count > std::numeric_limits<int>::max() / 3) refuse(path, "too many triangles");
   PolygonSoup soup;
   soup.vertices.reserve(std::size_t{3} * count);
   soup.polygons.reserve(count);
   for (std::size_t f = 0; f < count; ++f) {
+    stage.at(f, count);
     const char* at = bytes.data() + kHeaderBytes + kTriangleBytes * f + 12;
     for (int corner = 0; corner < 3; ++corner) {
       Point p;
@@ -64,8 +65,8 @@ bool same_word(std::string_view token, std::string_view lower_case) {
 
 class AsciiReader {
  public:
-  AsciiReader(const std::string& path, std::string_view text)
-      : path_(path), lines_(path, text) {}
+  AsciiReader(const std::string& path, std::string_view text, Stage& stage)
+      : path_(path), lines_(path, text, stage) {}
 
   PolygonSoup read() {
     if (!lines_.next_filled()) refuse(path_, "no solid");
@@ -148,9 +149,9 @@ class AsciiReader {
 // Whether a file is text although its size would do for a binary one: its first word is
 // "solid", and the next line that is not empty begins with the word "facet" or
 // "endsolid".
-bool begins_as_text(std::string_view text) {
+bool begins_as_text(std::string_view text, Stage& stage) {
   const std::string no_path;
-  LineReader lines(no_path, text);
+  LineReader lines(no_path, text, stage);
   if (!lines.next_filled() || !same_word(lines.token(), "solid")) return false;
   if (!lines.next_filled()) return false;
   const std::string_view word = lines.token();
@@ -182,24 +183,24 @@ void report_spare_bytes(PolygonSoup& soup, std::size_t needed, std::size_t there
 // A binary file has 80 bytes of comment, which may begin with "solid" too, a count, and
 // so many triangles; what follows is spare.  In a text, the bytes of the count are
 // characters and announce more triangles than any file holds.
-PolygonSoup read_stl(const std::string& path, std::string_view bytes) {
+PolygonSoup read_stl(const std::string& path, std::string_view bytes, Stage& stage) {
   const std::string_view text = without_byte_order_mark(bytes);
-  if (bytes.size() < kHeaderBytes) return AsciiReader(path, text).read();
+  if (bytes.size() < kHeaderBytes) return AsciiReader(path, text, stage).read();
   const std::uint32_t count = little_endian(bytes.data() + 80);
   const std::size_t needed = kHeaderBytes + kTriangleBytes * std::size_t{count};
   const bool holds_all = count > 0 && bytes.size() >= needed;
   if (bytes.size() == needed ||
-      (holds_all && !(begins_as_text(text) && is_mostly_text(bytes)))) {
-    PolygonSoup soup = read_binary(path, bytes, count);
+      (holds_all && !(begins_as_text(text, stage) && is_mostly_text(bytes)))) {
+    PolygonSoup soup = read_binary(path, bytes, count, stage);
     report_spare_bytes(soup, needed, bytes.size());
     return soup;
   }
-  if (!begins_as_text(text) && !is_mostly_text(bytes)) {
+  if (!begins_as_text(text, stage) && !is_mostly_text(bytes)) {
     refuse(path, "announces " + std::to_string(count) + " triangles, that is " +
                      std::to_string(needed) + " bytes, but has " +
                      std::to_string(bytes.size()) + " bytes");
   }
-  return AsciiReader(path, text).read();
+  return AsciiReader(path, text, stage).read();
 }
 
 }  // namespace sightline::internal

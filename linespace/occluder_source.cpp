@@ -5,6 +5,7 @@
 
 #include "linespace/occluder_source_internal.h"
 #include "linespace/patch_growth_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -93,7 +94,10 @@ bool certainly_misses(const RoundedSegment& s, const Polygon& polygon) {
 
 OccluderSet::OccluderSet(std::vector<Polygon> polygons) : polygons_(std::move(polygons)) {
   boxes_.reserve(polygons_.size());
-  for (const Polygon& p : polygons_) boxes_.push_back(box_of(p));
+  for (const Polygon& p : polygons_) {
+    hear_stop();
+    boxes_.push_back(box_of(p));
+  }
   if (polygons_.size() > kManyPolygons) tree_.emplace(boxes_);
 }
 

@@ -31,6 +31,7 @@
 #include "linespace/bvh_internal.h"
 #include "linespace/contact_internal.h"
 #include "linespace/occlusion_internal.h"
+#include "linespace/stage_internal.h"
 
 #if __has_include(<sys/mman.h>)
 #include <sys/mman.h>
@@ -264,7 +265,7 @@ struct FloatRay {
 }  // namespace
 
 struct OcclusionIndex::Impl {
-  explicit Impl(const Scene& scene_);
+  Impl(const Scene& scene_, internal::Stage& stage);
   ~Impl();
 
   const Scene& scene;
@@ -277,7 +278,8 @@ struct OcclusionIndex::Impl {
 
   void add_items();
   void choose_frame();
-  void build();
+  void build(internal::Stage& stage);
+  void release();
 
   // What an Embree call of ours carries.  Of a packet of rays, the one with id r has the
   // line lines[r] and so on.  A ray that certainly crosses an item ends up with a
@@ -321,11 +323,12 @@ struct OcclusionIndex::Impl {
                   std::span<std::vector<int>> doubtful) const;
 };
 
-OcclusionIndex::Impl::Impl(const Scene& scene_)
+OcclusionIndex::Impl::Impl(const Scene& scene_, internal::Stage& stage)
     : scene(scene_), bvh([&] {
         std::vector<Box> boxes_of_faces;
         std::vector<Point> corners;
         for (std::size_t f = 0; f < scene_.faces().size(); ++f) {
+          internal::hear_stop();
           corners.clear();
           for (const int p : scene_.face_points(static_cast<int>(f))) {
             corners.push_back(scene_.point(p));
@@ -336,10 +339,12 @@ OcclusionIndex::Impl::Impl(const Scene& scene_)
       }()) {
   add_items();
   choose_frame();
-  build();
+  build(stage);
 }
 
-OcclusionIndex::Impl::~Impl() {
+OcclusionIndex::Impl::~Impl() { release(); }
+
+void OcclusionIndex::Impl::release() {
   rtcReleaseScene(boxes);
   rtcReleaseDevice(device);
 }
@@ -370,7 +375,7 @@ void OcclusionIndex::Impl::choose_frame() {
   scale = half > 0 ? std::ldexp(1.0, -exponent) : 1;
 }
 
-void OcclusionIndex::Impl::build() {
+void OcclusionIndex::Impl::build(internal::Stage& stage) {
   device = rtcNewDevice(nullptr);
   boxes = rtcNewScene(device);
   rtcSetSceneFlags(boxes, RTC_SCENE_FLAG_ROBUST);
@@ -431,7 +436,19 @@ void OcclusionIndex::Impl::build() {
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(boxes, geometry);
   rtcReleaseGeometry(geometry);
+  // Embree asks from threads of its own, which know no scope.
+  rtcSetSceneProgressMonitorFunction(
+      boxes,
+      [](void* asked, double) {
+        return !static_cast<internal::Stage*>(asked)->stopped();
+      },
+      &stage);
   rtcCommitScene(boxes);
+  rtcSetSceneProgressMonitorFunction(boxes, nullptr, nullptr);
+  if (stage.stopped()) {
+    release();
+    stage.check(1);
+  }
 }
 
 // The part [t0, t1] of the line a + t (b - a), cut to a box a little larger than the
@@ -603,8 +620,10 @@ double OcclusionIndex::Impl::nearest(const Point& a, const Point& b, int beyond)
   return beyond > 0 ? query.t : -query.t;
 }
 
-OcclusionIndex::OcclusionIndex(const Scene& scene)
-    : impl_(std::make_unique<Impl>(scene)) {}
+OcclusionIndex::OcclusionIndex(const Scene& scene, const Request& request) {
+  internal::Stage stage(request, "occlusion index");
+  impl_ = std::make_unique<Impl>(scene, stage);
+}
 OcclusionIndex::~OcclusionIndex() = default;
 OcclusionIndex::OcclusionIndex(OcclusionIndex&&) noexcept = default;
 const Scene& OcclusionIndex::scene() const { return impl_->scene; }

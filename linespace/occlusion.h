@@ -63,7 +63,8 @@ struct FreeSegment {
 /// member function is safe to call from several threads.
 class OcclusionIndex {
  public:
-  explicit OcclusionIndex(const Scene& scene);
+  /// Of the request, budget, stop and progress count.  Throws Stopped.
+  explicit OcclusionIndex(const Scene& scene, const Request& request = {});
   ~OcclusionIndex();
   OcclusionIndex(OcclusionIndex&&) noexcept;
 

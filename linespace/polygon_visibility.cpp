@@ -9,6 +9,7 @@
 #include "linespace/polygon_visibility_internal.h"
 #include "linespace/scene_internal.h"
 #include "linespace/segment_sampler_internal.h"
+#include "linespace/stop_scope_internal.h"
 #include "linespace/unit_scale_internal.h"
 
 namespace sightline {
@@ -137,6 +138,22 @@ class PairSearch {
         sampler_(a, b, request.seed) {}
 
   SearchResult decide() {
+    const StopScope scope(terms_.stop);
+    SearchResult result;
+    try {
+      result = search();
+    } catch (const Stopped&) {
+      result.outcome = SearchOutcome::Undecided;
+      result.counts.undecided = 1;
+    }
+    result.counts.samples = sampler_.tried();
+    return result;
+  }
+
+  [[nodiscard]] const SightSpace& space() const { return space_; }
+
+ private:
+  SearchResult search() {
     for (const int i : terms_.source.start(terms_.known)) know(i);
     const std::optional<SightPoint> sampled = sample();
     SearchResult result;
@@ -156,13 +173,9 @@ class PairSearch {
                         .confirm = [this](const SightPoint& s) { return confirm(s); }};
       result = search_cover(space_, terms);
     }
-    result.counts.samples = sampler_.tried();
     return result;
   }
 
-  [[nodiscard]] const SightSpace& space() const { return space_; }
-
- private:
   void know(int i) {
     known_.push_back(i);
     sampler_.add(terms_.source.set()[i]);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "linespace/polynomials_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -131,6 +132,7 @@ class Separation {
     constexpr int kCompareEvery = 16;
     std::vector<int> roots;
     std::erase_if(fs, [&](int f) {
+      hear_stop_now();
       const int count = variations(fs_[f], i);
       if (count > 0) roots.push_back(count);
       return count == 0;
@@ -222,6 +224,7 @@ Polynomial2 primitive(Polynomial2 f) {
 
 Polynomial2 pseudo_remainder(Polynomial2 f, const Polynomial2& g) {
   while (f.size() >= g.size()) {
+    hear_stop_now();
     const Polynomial1 lead = f.back();
     const std::size_t shift = f.size() - g.size();
     for (Polynomial1& c : f) c = product(c, g.back());
@@ -401,6 +404,7 @@ Polynomial1 resultant(const Polynomial2& f, const Polynomial2& g) {
     if (pivot == rows.end()) return {};
     std::swap(rows[c], *pivot);
     for (std::size_t i = c + 1; i < size; ++i) {
+      hear_stop_now();
       for (std::size_t j = c + 1; j < size; ++j) {
         rows[i][j] = exact_quotient(
             difference(product(rows[c][c], rows[i][j]), product(rows[i][c], rows[c][j])),
@@ -422,6 +426,7 @@ void CurveBasis::add(const Polynomial2& f) {
     if (repeated.size() > 1) rest = quotient(rest, repeated);
   }
   for (std::size_t i = 0; i < curves.size() && rest.size() > 1; ++i) {
+    hear_stop_now();
     if (certainly_coprime(curves[i], rest)) continue;
     const Polynomial2 shared = common_factor(curves[i], rest);
     if (shared.size() < 2) continue;

@@ -97,15 +97,22 @@ void SceneBuilder::run() {
   check_usable();
   scene.defects_ = scene.soup_.defects;
   weld_vertices();
+  stage.begin("faces");
   make_faces();
   number_points();
   index_faces();
+  stage.begin("objects");
   make_objects();
   check_duplicates();
+  stage.begin("sides");
   collect_half_edges();
+  stage.begin("shells");
   turn_shells();
+  stage.begin("edges");
   classify_edges();
+  stage.begin("straight edges");
   join_edges();
+  stage.begin("solids");
   describe_objects();
   find_bounds();
 }
@@ -116,6 +123,7 @@ void SceneBuilder::weld_vertices() {
   std::vector<int> table(capacity, -1);
   weld.resize(vertices.size());
   for (std::size_t v = 0; v < vertices.size(); ++v) {
+    stage.at(v, vertices.size());
     std::size_t slot = hash_of(vertices[v]) & (capacity - 1);
     while (table[slot] >= 0 && vertices[table[slot]] != vertices[v]) {
       slot = (slot + 1) & (capacity - 1);
@@ -130,6 +138,7 @@ void SceneBuilder::make_faces() {
   scene.faces_.reserve(soup.polygons.size());
   std::vector<int> ring;
   for (std::size_t i = 0; i < soup.polygons.size(); ++i) {
+    stage.at(i, soup.polygons.size());
     const auto& polygon = soup.polygons[i];
     const int source = static_cast<int>(i);
     const std::string name = "face " + std::to_string(source);
@@ -232,8 +241,10 @@ void SceneBuilder::find_bounds() {
 
 }  // namespace internal
 
-Scene::Scene(PolygonSoup soup, const SceneOptions& options) : soup_(std::move(soup)) {
-  internal::SceneBuilder(*this, options).run();
+Scene::Scene(PolygonSoup soup, const SceneOptions& options, const Request& request)
+    : soup_(std::move(soup)) {
+  internal::Stage stage(request, "vertices");
+  internal::SceneBuilder(*this, options, stage).run();
 }
 
 std::span<const int> Scene::edges_at(int p) const {

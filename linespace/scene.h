@@ -17,6 +17,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "linespace/request.h"
+
 namespace sightline {
 
 namespace internal {
@@ -128,8 +130,11 @@ class Scene {
   /// Validates and derives everything.  Throws InvalidInput for what no analysis can use:
   /// non-finite coordinates, a coordinate other than 0 whose magnitude is outside
   /// [2^-140, 2^140], indices out of range, no faces.  Other defects are kept in
-  /// defects(); faces of zero area block nothing and are left out of faces().
-  explicit Scene(PolygonSoup soup, const SceneOptions& options = {});
+  /// defects(); faces of zero area block nothing and are left out of faces().  Of the
+  /// request, budget, stop and progress count; throws Stopped.  Cost: n log n for n
+  /// faces.
+  explicit Scene(PolygonSoup soup, const SceneOptions& options = {},
+                 const Request& request = {});
 
   /// Distinct points used by faces, in order of first use: point ids index this.
   [[nodiscard]] std::span<const Point> points() const { return points_; }
@@ -219,6 +224,8 @@ class Scene {
 [[nodiscard]] std::vector<Defect> find_self_touching(const Scene& scene);
 
 /// Every defect of the scene: those found while loading, then find_self_touching.
-[[nodiscard]] std::vector<Defect> validate(const Scene& scene);
+/// Of the request, budget, stop and progress count.  Throws Stopped.
+[[nodiscard]] std::vector<Defect> validate(const Scene& scene,
+                                           const Request& request = {});
 
 }  // namespace sightline

@@ -7,6 +7,7 @@
 
 #include "linespace/predicates.h"
 #include "linespace/scene_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -98,6 +99,7 @@ void SceneBuilder::collect_half_edges() {
         scene.faces_[f].object, from < to,          is_diagonal[at] != 0};
   });
   for (std::size_t p = 0; p + 1 < starts.size(); ++p) {
+    stage.at(p, starts.size());
     std::sort(half_edges.begin() + starts[p], half_edges.begin() + starts[p + 1],
               [](const HalfEdge& e, const HalfEdge& f) {
                 if (e.object != f.object) return e.object < f.object;
@@ -118,6 +120,7 @@ void SceneBuilder::classify_edges() {
     if (!exact) inexact_faces.push_back(f);
   };
   for (std::size_t i = 0; i < half_edges.size();) {
+    stage.at(i, half_edges.size());
     std::size_t end = i + 1;
     while (end < half_edges.size() && half_edges[end].low == half_edges[i].low &&
            half_edges[end].high == half_edges[i].high &&
@@ -129,6 +132,7 @@ void SceneBuilder::classify_edges() {
     for (std::size_t j = i; j < end; ++j) {
       if (!half_edges[j].diagonal) continue;
       for (std::size_t k = j + 1; k < end; ++k) {
+        hear_stop();
         if (!half_edges[k].diagonal || half_edges[j].forward == half_edges[k].forward ||
             scene.faces_[half_edges[j].face].source !=
                 scene.faces_[half_edges[k].face].source) {
@@ -313,6 +317,7 @@ void SceneBuilder::join_edges() {
   std::vector<int> first_of_edge;                    // mesh edge, per maximal edge
   scene.edges_.reserve(candidates.size());
   for (const int e : candidates) {
+    stage.at(static_cast<std::size_t>(e), mesh_edges.size());
     if (done[e]) continue;
     done[e] = 1;
     chain_of[e] = e;

@@ -11,6 +11,7 @@
 
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
+#include "linespace/stage_internal.h"
 
 namespace sightline::internal {
 
@@ -83,8 +84,10 @@ struct MeshEdge {
 struct SceneBuilder {
   Scene& scene;
   const SceneOptions& options;
+  Stage& stage;
 
-  SceneBuilder(Scene& target, const SceneOptions& how) : scene(target), options(how) {}
+  SceneBuilder(Scene& target, const SceneOptions& how, Stage& told)
+      : scene(target), options(how), stage(told) {}
 
   std::vector<int> weld;                  // file vertex -> first one at its coordinates
   std::vector<std::uint8_t> is_diagonal;  // per entry of Scene::corners_

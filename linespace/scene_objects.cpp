@@ -6,6 +6,7 @@
 
 #include "linespace/predicates.h"
 #include "linespace/scene_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -16,6 +17,7 @@ DisjointSets components(const Scene& scene, const Same& same) {
   DisjointSets sets(scene.faces().size());
   std::vector<int> representatives;
   for (std::size_t p = 0; p < scene.points().size(); ++p) {
+    hear_stop();
     representatives.clear();
     for (const int f : scene.faces_at(static_cast<int>(p))) {
       const auto r = std::find_if(representatives.begin(), representatives.end(),
@@ -71,6 +73,7 @@ Point mean(const Scene& scene, std::span<const int> ids) {
 
 bool behind_all(const Scene& scene, const Object& object, const Point& p, bool allow_on) {
   return std::all_of(object.faces.begin(), object.faces.end(), [&](int f) {
+    hear_stop();
     const auto t = plane_points(scene, f);
     const Sign s = orient3d(t[0], t[1], t[2], p);
     return s == Sign::Negative || (allow_on && s == Sign::Zero);
@@ -189,6 +192,7 @@ void SceneBuilder::describe_objects() {
     if (sets.find(i) == i && balanced[f]) ++scene.solids_;
   }
   for (std::size_t i = 0; i < scene.objects_.size(); ++i) {
+    stage.at(i, scene.objects_.size());
     Object& object = scene.objects_[i];
     object.convex = object.closed && bulges[i] && bounds_convex_solid(scene, object);
   }

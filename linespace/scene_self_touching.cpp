@@ -15,6 +15,7 @@
 #include "linespace/bvh_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/scene_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline {
 namespace internal {
@@ -199,6 +200,7 @@ std::vector<Defect> find_self_touching(const Scene& scene) {
     const int f = static_cast<int>(i);
     tree.traverse([&](const Box& box) { return internal::overlap(box, boxes[i]); },
                   [&](std::uint32_t item) {
+                    internal::hear_stop();
                     const int g = static_cast<int>(item);
                     if (g <= f || faces[g].object != faces[f].object ||
                         faces[g].source == faces[f].source ||

@@ -13,6 +13,7 @@
 #include "linespace/bvh_internal.h"
 #include "linespace/rational_internal.h"
 #include "linespace/scene_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -23,6 +24,7 @@ Rational exact_volume(const Scene& scene, const Faces& faces) {
   Rational sum = 0;
   const ExactPoint origin = exact_point(scene.point(scene.face_points(faces[0])[0]));
   for (const int f : faces) {
+    hear_stop();
     const auto c = scene.face_points(f);
     const ExactPoint a = exact_difference(exact_point(scene.point(c[0])), origin);
     for (std::size_t k = 1; k + 1 < c.size(); ++k) {
@@ -72,6 +74,7 @@ std::optional<int> winding_number(const Scene& scene, const Faces& faces,
   };
   std::vector<Ahead> all;
   for (const int f : faces) {
+    hear_stop();
     const auto t = plane_points(scene, f);
     Ahead face{{}, static_cast<int>(orient3d(t[0], t[1], t[2], p))};
     for (const int c : scene.face_points(f)) {
@@ -99,6 +102,7 @@ std::optional<int> winding_number(const Scene& scene, const Faces& faces,
     int winding = 0;
     bool bad = false;
     for (const Ahead& face : all) {
+      hear_stop();
       bool meets = true;
       bool through_side = false;
       for (std::size_t k = 0; k < face.corners.size() && meets; ++k) {
@@ -247,8 +251,10 @@ void SceneBuilder::turn_shells() {
   std::vector<const Faces*> turned;
   std::optional<ClosedObjects> closed;
   for (std::size_t o = 0; o < all.size(); ++o) {
+    stage.at(o, all.size());
     Object& object = scene.objects_[o];
     for (std::size_t i = 0; i < all[o].size(); ++i) {
+      hear_stop();
       const Faces& shell = all[o][i];
       for (const int f : shell) scene.sides_[f] = Scene::FaceSides::Solid;
       if (volume_sign(scene, shell) != Sign::Negative || is_cavity(scene, all[o], i)) {

@@ -131,6 +131,7 @@ void SceneBuilder::check_duplicates() {
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     for (std::size_t j = i + 1;
          j < polygons.size() && polygons[j].hash == polygons[i].hash; ++j) {
+      hear_stop();
       points_of(polygons[i].first, polygons[i].last);
       ids_of_first = ids;
       points_of(polygons[j].first, polygons[j].last);
@@ -157,7 +158,8 @@ void SceneBuilder::check_duplicates() {
 
 }  // namespace internal
 
-std::vector<Defect> validate(const Scene& scene) {
+std::vector<Defect> validate(const Scene& scene, const Request& request) {
+  const internal::Stage stage(request, "looking for defects");
   std::vector<Defect> all(scene.defects().begin(), scene.defects().end());
   std::vector<Defect> touching = find_self_touching(scene);
   all.insert(all.end(), std::make_move_iterator(touching.begin()),

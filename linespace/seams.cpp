@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -9,6 +10,7 @@
 #include "linespace/contact_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/seams_internal.h"
+#include "linespace/stage_internal.h"
 
 namespace sightline {
 
@@ -154,6 +156,7 @@ void check_seam(double seam) {
 SeamAnswer polygon_visibility(const VisibilityQuestion& question, double seam,
                               const VisibilityRequest& request) {
   check_seam(seam);
+  const auto start = std::chrono::steady_clock::now();
   SeamAnswer result;
   result.grown = question;
   std::vector<int> owner(question.occluders.size());
@@ -172,7 +175,9 @@ SeamAnswer polygon_visibility(const VisibilityQuestion& question, double seam,
   result.answer = polygon_visibility(result.grown, request);
   to_owners(result.answer.occluders);
   if (seam == 0 || result.answer.verdict != Verdict::Hidden) return result;
-  const VisibilityAnswer open = polygon_visibility(question, request);
+  VisibilityRequest rest = request;
+  rest.budget_seconds = what_is_left(request, start).budget_seconds;
+  const VisibilityAnswer open = polygon_visibility(question, rest);
   result.answer.cost += open.cost;
   result.closed_unknown = open.verdict == Verdict::Undecided;
   if (open.verdict == Verdict::Visible) {
@@ -189,7 +194,12 @@ ClosedPairs closed_pairs(const Scene& scene, const FaceVisibility& grown,
                          const VisibilityRequest& request) {
   ClosedPairs result;
   if (!all_pairs && group.verdict != Verdict::Hidden) return result;
-  const GroupAnswer open = FaceVisibility(scene).between(as, bs, all_pairs, request);
+  GroupAnswer open;
+  try {
+    open = FaceVisibility(scene, request).between(as, bs, all_pairs, request);
+  } catch (const Stopped&) {
+    open.pairs_undecided = 1;
+  }
   result.complete = open.pairs_undecided == 0;
   const auto add = [&](const FacePairAnswer& pair) {
     if (pair.answer.verdict != Verdict::Visible) return;

@@ -6,6 +6,7 @@
 
 #include "linespace/cpu_dispatch_internal.h"
 #include "linespace/segment_sampler_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -157,6 +158,7 @@ bool SegmentSampler::hopeless() const {
 
 std::optional<SightPoint> SegmentSampler::spread(int count, const Confirm& confirm) {
   for (int done = 0; done < count && !hopeless(); done += kBatch) {
+    hear_stop_now();
     const Batch x = next_batch();
     Counts counts;
     const bool counted = done < kCounted;
@@ -239,6 +241,7 @@ std::optional<SightPoint> SegmentSampler::descend(int count, const Confirm& conf
   starts.resize(std::min<std::size_t>(starts.size(), count / (kRounds * kBatch)));
   for (auto& [best, at] : starts) {
     for (int round = 0; round < kRounds && !hopeless(); ++round) {
+      hear_stop_now();
       const Batch x = around(at);
       Counts counts;
       count_blockers(functions_.data(), order_.data(), size(), x, best, counts);

@@ -29,6 +29,7 @@
 
 #include "linespace/scene.h"
 #include "linespace/segment_transversals_internal.h"
+#include "linespace/stop_scope_internal.h"
 #include "linespace/transversals_internal.h"
 
 namespace sightline {
@@ -229,7 +230,7 @@ class Search {
         if (stopped()) return;
         const PrecisionScope precision(request_.precision);
         const StageCounts before = thread_stage_counts();
-        from(i, found[static_cast<std::size_t>(i)]);
+        until_stopped([&] { from(i, found[static_cast<std::size_t>(i)]); });
         add_difference(found[static_cast<std::size_t>(i)].predicates, before);
         report(0.9 * ++done / n_);
       });
@@ -241,12 +242,12 @@ class Search {
     for (const Findings& f : found) {
       out.line_count += f.count;
       out.lines.insert(out.lines.end(), f.lines.begin(), f.lines.end());
-      unsure.insert(unsure.end(), f.unsure.begin(), f.unsure.end());
+      if (!stopped_) unsure.insert(unsure.end(), f.unsure.begin(), f.unsure.end());
       add(out.predicates, f.predicates);
     }
     if (request_.precision == Precision::Exact) {
       const StageCounts before = thread_stage_counts();
-      resolve(unsure, out);
+      until_stopped([&] { resolve(unsure, out); });
       add_difference(out.predicates, before);
     }
     for (const Element& e : elements_) out.elements.push_back(e.line);
@@ -275,10 +276,21 @@ class Search {
     }
     return stopped_;
   }
+  // The work hears a stop.
+  template <class Work>
+  void until_stopped(Work&& work) {
+    const std::function<bool()> stop = [this] { return stopped(); };
+    const StopScope scope(stop);
+    try {
+      work();
+    } catch (const Stopped&) {
+      stopped_ = true;
+    }
+  }
   void report(double fraction) {
     if (!request_.progress) return;
     const std::scoped_lock lock(reporting_);
-    request_.progress(fraction);
+    request_.progress("transversals", fraction);
   }
 
   const LineThrough& line(int i) const {
@@ -295,6 +307,7 @@ class Search {
     const auto n = static_cast<std::size_t>(bounded_);
     std::vector<DoubleForm> forms(n * n);
     for (int j = i + 1; j < bounded_; ++j) {
+      hear_stop_now();
       for (int k = 0; k < bounded_; ++k) {
         if (k != i && k != j) forms[j * n + k] = double_form(line(i), line(j), line(k));
       }
@@ -302,7 +315,7 @@ class Search {
     std::vector<Curve> curves(n);
     std::vector<int> met, near;
     for (int j = i + 1; j < bounded_; ++j) {
-      if (stopped()) return;
+      hear_stop_now();
       const BoundedValue skew =
           orient3d_value(line(i).from, line(i).to, line(j).from, line(j).to);
       if (std::abs(skew.value) <= skew.error) {
@@ -320,6 +333,7 @@ class Search {
         if (curves[k].state != Curve::Empty) met.push_back(k);
       }
       for (std::size_t a = 0; a < met.size(); ++a) {
+        hear_stop();
         for (std::size_t b = a + 1; b < met.size(); ++b) {
           quadruple({i, j, met[a], met[b]}, &forms[j * n], curves, near, out);
         }
@@ -333,6 +347,7 @@ class Search {
   }
   void all_unsure(int i, int j, Findings& out) const {
     for (int k = j + 1; k < n_; ++k) {
+      hear_stop();
       for (int l = k + 1; l < n_; ++l) out.unsure.push_back({i, j, k, l});
     }
   }
@@ -452,12 +467,13 @@ class Search {
     std::vector<ExactFamily> families;
     std::size_t done = 0;
     for (const Quadruple& q : unsure) {
+      hear_stop();
       if (++done % 1024 == 0) {
-        if (stopped()) break;
         report(0.9 +
                0.1 * static_cast<double>(done) / static_cast<double>(unsure.size()));
       }
       if (never(q)) continue;
+      hear_stop_now();
       const FourComponents four = components_of(FourElements{
           elements_[q[0]], elements_[q[1]], elements_[q[2]], elements_[q[3]]});
       for (const ExactLine& l : four.isolated) add_line(q, l, lines, out);
@@ -471,6 +487,7 @@ class Search {
     for (const ExactFamily& f : families) {
       std::vector<int> met;
       for (int m = 0; m < n_; ++m) {
+        hear_stop_now();
         if (all_meet(f, elements_[m])) met.push_back(m);
       }
       out.families.push_back({f.kind, f.dimension, std::move(met), f.samples.front()});

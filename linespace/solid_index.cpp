@@ -15,6 +15,7 @@
 
 #include "linespace/scene_internal.h"
 #include "linespace/solid_index_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -125,6 +126,7 @@ SolidIndex::SolidIndex(const Scene& scene)
   for (std::size_t o = 0; o < scene.objects().size(); ++o) {
     const Object& object = scene.objects()[o];
     if (!object.closed || object.faces.empty()) continue;
+    hear_stop();
     boxes.clear();
     for (const int f : object.faces) boxes.push_back(box_of_face(scene, f));
     Solid solid{static_cast<int>(o), boxes[0], 0};
@@ -152,6 +154,7 @@ std::optional<SolidIndex::Windings> SolidIndex::windings(int object,
   Windings count;
   // True when the point lies on the face, which ends the search.
   const auto look_at = [&](std::uint32_t item) {
+    hear_stop();
     const int f = faces[item];
     const int turns = ray.turns(f);
     const Box box = box_of_face(*scene_, f);

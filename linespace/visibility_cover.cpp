@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <map>
 
+#include "linespace/stop_scope_internal.h"
 #include "linespace/visibility_cover_internal.h"
 
 namespace sightline {
@@ -314,6 +315,7 @@ class Checker {
     Polynomial sum;
     bool any = false;
     for (int i = node.index; i < node.index + node.count; ++i) {
+      hear_stop();
       const CoverShare& share = pair_.cover.shares[i];
       const Rational weight = share.exact >= 0 ? pair_.cover.exact_weights[share.exact]
                                                : Rational(share.weight);

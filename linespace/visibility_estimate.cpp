@@ -158,7 +158,8 @@ std::vector<BlockResult> run(const Estimator& estimator, std::int64_t samples,
           estimator.block(b * kBlock, std::min(samples, (b + 1) * kBlock));
       if (!request.progress) continue;
       const std::scoped_lock lock(telling);
-      request.progress(static_cast<double>(++told) / static_cast<double>(blocks));
+      request.progress("segments",
+                       static_cast<double>(++told) / static_cast<double>(blocks));
     }
   };
   const int threads = request.threads > 0

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "linespace/stop_scope_internal.h"
 #include "skeleton/carriers_internal.h"
 
 namespace sightline::internal {
@@ -23,12 +24,14 @@ Carriers::Carriers(const Generators& g) {
   };
   std::vector<std::int32_t> of_edge;
   for (std::size_t e = 0; e < scene.edges().size(); ++e) {
+    hear_stop();
     const auto& points = scene.edges()[e].points;
     of_edge.push_back(carrier_of(points[0], points[1], static_cast<std::int32_t>(e)));
   }
   for (const Ridge& r : g.ridges()) of_ridge.push_back(of_edge[r.edge]);
   starts.push_back(0);
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    hear_stop();
     const auto corners = scene.face_points(static_cast<int>(f));
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const int p = corners[k];

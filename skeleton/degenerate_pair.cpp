@@ -4,6 +4,7 @@
 #include <limits>
 #include <optional>
 
+#include "linespace/stop_scope_internal.h"
 #include "skeleton/degenerate_pair_internal.h"
 #include "skeleton/drawn_internal.h"
 #include "skeleton/node_contacts_internal.h"
@@ -73,6 +74,7 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
     cuts.push_back(make_cut(kind, feature, points, on_edge.at0, on_edge.at1));
   };
   for (const int f : faces) {
+    hear_stop();
     const auto corners = scene.face_points(f);
     const std::size_t n = corners.size();
     for (std::size_t k = 0; k < n; ++k) {
@@ -94,6 +96,7 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
     const ExactPoint eye = exact_point(v);
     const ExactPoint up = exact_point(scene.point(off_plane));
     for (const ExactPoint& x : plane_crossings(scene, faces, plane, off_plane)) {
+      hear_stop();
       auto s = parameter_towards(eye, x, up, exact_point(e0), exact_point(e1));
       if (!s) continue;
       positions.push_back(std::move(*s));
@@ -110,6 +113,7 @@ std::vector<Cut> critical_cuts(const Generators& g, const Star& star, const Poin
   }
   const LineThrough line{e0, e1};
   std::sort(cuts.begin(), cuts.end(), [&](const Cut& a, const Cut& b) {
+    hear_stop();
     return compare(scene, line, a, b) == Sign::Negative;
   });
   cuts.erase(std::unique(cuts.begin(), cuts.end(),
@@ -193,6 +197,7 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
         critical_cuts(g, star, e0, e1, plane, faces, out.positions);
     std::vector<Cut> stops{open.from};
     for (const Cut& c : cuts) {
+      hear_stop();
       if (compare(scene, line, open.from, c) == Sign::Negative &&
           compare(scene, line, c, open.to) == Sign::Negative) {
         stops.push_back(c);
@@ -239,6 +244,7 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
       begin.reset();
     };
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+      hear_stop_now();
       auto state = state_at(point_between(stops[i], stops[i + 1]), true);
       const bool only_ends =
           std::any_of(ending.begin(), ending.end(), [&](const CutInterval& e) {
@@ -313,6 +319,7 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
         (!g.aligned() || !may_touch_more(node, e0, e1, cut))) {
       return;
     }
+    hear_stop_now();
     const ExactPoint x = point_on(arc, cut);
     const ExactPoint& start = other ? *other : from;
     const LineScan scan(scene, faces_near_line(g, rounded(start), rounded(x)), start, x);

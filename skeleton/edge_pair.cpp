@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linespace/stop_scope_internal.h"
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/occluder_shadow_internal.h"
 
@@ -75,6 +76,7 @@ void EdgePairs::visit_group(int i, const Subtree& group, std::vector<FoundArc>& 
     open_ = at.open;
     for (std::uint32_t k = 0; k < node.count; ++k) {
       const int j = static_cast<int>(tree.items()[node.first + k]);
+      hear_stop();
       if (j > i && selection_.has(j) && selection_.has_outer(i, j) &&
           !g_.ridge_sides(node.first + k)
                .never_touched_from(view_.end(0), view_.end(1))) {
@@ -116,6 +118,7 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   if (never_touches(s, outer.last_planes)) return;
   if (share_facet(r, s)) return;
   if (view_.hides(q0, q1)) return;
+  hear_stop_now();
   if (!gather(outer)) return;
   visit_middles(outer, false, out);
   // Where the middle edge and the last are coplanar, s is constant: the other way round.

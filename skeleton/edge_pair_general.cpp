@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "linespace/stop_scope_internal.h"
 #include "skeleton/drawn_internal.h"
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/edge_pair_internal.h"
@@ -30,6 +31,7 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
   ++node_stamp_;
   const std::vector<int> faces = view_.all_faces();
   for (const int face : faces) {
+    hear_stop();
     const PlaneSide& plane = g_.face_plane(face);
     const std::array<std::int32_t, 3> points = plane_points(scene_, face);
     const int facet = scene_.faces()[face].facet;
@@ -66,6 +68,7 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
   }
   for (const Rational& s : in_plane_stops(outer, curve, faces)) add(curve.cut_at(s));
   std::sort(stops.begin(), stops.end(), [&](const CurveCut& a, const CurveCut& b) {
+    hear_stop();
     return curve.compare(a, b) == Sign::Negative;
   });
   stops.erase(std::unique(stops.begin(), stops.end(),
@@ -99,6 +102,7 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
   std::optional<CurveCut> begin;
   State state;  // from `begin` on
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    hear_stop_now();
     const auto s = curve.between(stops[i], stops[i + 1]);
     const State here = s ? state_of(curve.points_at(*s), true) : std::nullopt;
     if (begin && i > 0) {

@@ -61,8 +61,8 @@ void drop_arcs_off_source(const Generators& g, const EeePart& part,
 }  // namespace
 
 void add_eee(const Generators& generators, const SkeletonRequest& request,
-             std::chrono::steady_clock::time_point start, std::array<double, 2> progress,
-             Skeleton& skeleton, NodeJoiner& nodes) {
+             std::chrono::steady_clock::time_point start, Skeleton& skeleton,
+             NodeJoiner& nodes) {
   const EeePart part = eee_part(generators, request);
   const std::vector<int> firsts = asked_ridges(generators, part);
   skeleton.edges_asked = firsts.size();
@@ -70,11 +70,12 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
     skeleton.complete = skeleton.complete && firsts.empty();
     return;
   }
+  const Stage stage(request, "EEE arcs", start);
   const Carriers carriers(generators);
   std::optional<SkeletonLines> lines;
-  if (part.by_lines) lines.emplace(generators.scene());
+  if (part.by_lines) lines.emplace(generators.scene(), what_is_left(request, start));
   skeleton.stopped_by = for_each_parallel(
-      firsts.size(), request, start, progress, skeleton.predicates,
+      firsts.size(), request, start, "EEE arcs", skeleton.predicates,
       [&] { return std::make_unique<EdgePairs>(generators, carriers, part); },
       [&](EdgePairs& pairs, std::size_t i) {
         std::vector<FoundArc> arcs;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
 
 #include "skeleton/parallel_internal.h"
 #include "skeleton/skeleton_lines.h"
@@ -33,7 +34,11 @@ using Ends = std::vector<SkeletonLines::EndPiece>;
 EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& request)
     : skeleton_(skeleton) {
   const auto start = std::chrono::steady_clock::now();
-  const SkeletonLines lines(scene);
+  std::optional<SkeletonLines> lines;
+  try {
+    lines.emplace(scene, request);
+  } catch (const Stopped&) {  // nothing is found then: not complete
+  }
   const std::size_t ev = skeleton.arcs.size();
   const std::size_t count = ev + skeleton.eee_arcs.size();
   constexpr std::size_t kArcsAtOnce = 64;
@@ -69,14 +74,14 @@ EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& 
   struct Nothing {};
   StageCounts counts;
   internal::for_each_parallel(
-      (count + kArcsAtOnce - 1) / kArcsAtOnce, request, start, {0, 1}, counts,
-      [] { return std::make_unique<Nothing>(); },
+      lines ? (count + kArcsAtOnce - 1) / kArcsAtOnce : 0, request, start, "far ends",
+      counts, [] { return std::make_unique<Nothing>(); },
       [&](Nothing&, std::size_t batch) {
         std::vector<Ends> found;
         const std::size_t from = batch * kArcsAtOnce;
         for (std::size_t i = from; i < std::min(count, from + kArcsAtOnce); ++i) {
-          found.push_back(i < ev ? lines.ends(skeleton.arcs[i])
-                                 : lines.ends(skeleton.eee_arcs[i - ev]));
+          found.push_back(i < ev ? lines->ends(skeleton.arcs[i])
+                                 : lines->ends(skeleton.eee_arcs[i - ev]));
         }
         return found;
       },

@@ -72,6 +72,7 @@ void FacePairs::visit(int f, std::vector<FoundFacePair>& out) {
   const PlaneSide& plane = plane_of(g_, f);
   facets_.traverse(
       [&](const Box& box) {
+        hear_stop();
         const CentredBox at = centred(box);
         const std::array<double, 3> from_origin{
             at.centre[0] - origin[0], at.centre[1] - origin[1], at.centre[2] - origin[2]};
@@ -188,6 +189,7 @@ void FacePairs::visit_pair(int f, int g, std::vector<FoundFacePair>& out) {
   facet_stamp_[f] = facet_stamp_[g] = 1;
   std::size_t first = 0;
   for (std::size_t i = 0; i < intervals_.size(); ++i) {
+    hear_stop_now();
     const bool goes_on = [&] {
       if (i + 1 == intervals_.size()) return false;
       // Up to the farther end, should one of them contain the other.
@@ -256,8 +258,7 @@ void add_pair(const FoundFacePair& found, NodeJoiner& nodes) {
 }  // namespace
 
 void add_face_pairs(const Generators& generators, const SkeletonRequest& request,
-                    std::chrono::steady_clock::time_point start,
-                    std::array<double, 2> progress, Skeleton& skeleton,
+                    std::chrono::steady_clock::time_point start, Skeleton& skeleton,
                     NodeJoiner& nodes) {
   const Scene& scene = generators.scene();
   const FacetPart part = facet_part(generators, request);
@@ -270,13 +271,14 @@ void add_face_pairs(const Generators& generators, const SkeletonRequest& request
     skeleton.complete = skeleton.complete && firsts.empty();
     return;
   }
+  const Stage stage(request, "FF nodes", start);
   std::vector<Box> boxes;
   for (const Facet& facet : scene.facets()) {
     boxes.push_back(box_of_facet(generators, facet));
   }
   const Bvh tree(boxes);
   skeleton.stopped_by = for_each_parallel(
-      firsts.size(), request, start, progress, skeleton.predicates,
+      firsts.size(), request, start, "FF nodes", skeleton.predicates,
       [&] { return std::make_unique<FacePairs>(generators, tree, part); },
       [&](FacePairs& pairs, std::size_t i) {
         std::vector<FoundFacePair> found;

@@ -62,8 +62,7 @@ class FacePairs {
 
 /// Adds the FF nodes to a skeleton, and to its degenerate nodes those that are new.
 void add_face_pairs(const Generators& generators, const SkeletonRequest& request,
-                    std::chrono::steady_clock::time_point start,
-                    std::array<double, 2> progress, Skeleton& skeleton,
+                    std::chrono::steady_clock::time_point start, Skeleton& skeleton,
                     NodeJoiner& nodes);
 
 }  // namespace sightline::internal

@@ -3,8 +3,11 @@
 #include <cassert>
 #include <optional>
 
+#include "linespace/solid_index_internal.h"
+#include "linespace/stop_scope_internal.h"
 #include "linespace/transversals_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/parallel_internal.h"
 #include "skeleton/rooms_internal.h"
 
 namespace sightline::internal {
@@ -20,6 +23,7 @@ std::vector<Box> boxes_of_faces(const Scene& scene) {
   std::vector<Box> boxes;
   boxes.reserve(scene.faces().size());
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    hear_stop();
     boxes.push_back(box_of_face(scene, static_cast<int>(f)));
   }
   return boxes;
@@ -84,19 +88,26 @@ Rational InPlaneSide::value(const Point& p, const Point& q, const Point& x) cons
          (Rational(q[j]) - Rational(p[j])) * (Rational(x[i]) - Rational(p[i]));
 }
 
-Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
+Generators::Generators(const Scene& scene, EventMode events, const Request& request,
+                       Stage::Clock::time_point start)
     : scene_(&scene),
       events_(events),
-      face_boxes_(boxes_of_faces(scene)),
-      face_tree_(face_boxes_),
+      face_tree_(std::vector<Box>{}),
       ridge_tree_(std::vector<Box>{}),
       blocker_tree_(std::vector<Box>{}) {
+  Stage stage(request, "faces", start);
+  face_boxes_ = boxes_of_faces(scene);
+  face_tree_ = Bvh(face_boxes_);
+  stage.begin("planes");
   face_planes_.reserve(scene.faces().size());
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    stage.at(f, scene.faces().size());
     face_planes_.emplace_back(face_plane_through(scene, static_cast<int>(f)));
   }
   object_starts_.assign(scene.points().size() + 1, 0);
+  stage.begin("objects");
   for (std::size_t p = 0; p < scene.points().size(); ++p) {
+    stage.at(p, scene.points().size());
     std::vector<std::int32_t> ids;
     for (const int f : scene.faces_at(static_cast<int>(p)))
       ids.push_back(scene.faces()[f].object);
@@ -109,9 +120,13 @@ Generators::Generators(const Scene& scene, int /*threads*/, EventMode events)
   find_rooms();
   find_blockers();
   find_outlines();
-  find_ridges();
-  find_stars();
-  find_inside();
+  stage.begin("edges' faces");
+  find_ridges(request, stage);
+  stage.begin("corners' faces");
+  find_stars(request, stage);
+  stage.begin("corners in solids");
+  find_inside(request, stage);
+  stage.begin("aligned edges");
   find_aligned();
 }
 
@@ -134,6 +149,7 @@ void Generators::find_convex_solids() {
     bool ok = true;
     for (std::size_t i = 0; i < object.faces.size() && ok; ++i) {
       const int f = object.faces[i];
+      hear_stop_now();
       for (std::size_t j = 0; j < object.faces.size() && ok; ++j) {
         const int g = object.faces[j];
         if (s.faces()[g].facet == s.faces()[f].facet) continue;
@@ -167,6 +183,7 @@ void Generators::find_outlines() {
   const Scene& s = *scene_;
   outlines_.resize(s.facets().size());
   for (std::size_t i = 0; i < s.facets().size(); ++i) {
+    hear_stop();
     const Facet& facet = s.facets()[i];
     if (!facet.planar || facet.faces.size() < 2 || facet.faces.size() > kMostFaces)
       continue;
@@ -204,14 +221,17 @@ void Generators::find_aligned() {
   };
   std::vector<Direction> all;
   for (std::size_t r = 0; r < ridges_.size(); ++r) {
+    hear_stop();
     const auto& p = ridges_[r].points;
     const Point d = s.point(p[1]) - s.point(p[0]);
     const double size = d.cwiseAbs().maxCoeff();
     const Point u = (d / size).normalized().cwiseAbs();
     all.push_back({{u[0], u[1], u[2]}, static_cast<int>(r)});
   }
-  std::sort(all.begin(), all.end(),
-            [](const Direction& a, const Direction& b) { return a.unit < b.unit; });
+  std::sort(all.begin(), all.end(), [](const Direction& a, const Direction& b) {
+    hear_stop();
+    return a.unit < b.unit;
+  });
   // A component of magnitude at most 1 after a difference, a quotient and a norm.
   constexpr double kWidth = 32 * kUnit;
   const auto solid_in_common = [&](const Ridge& a, const Ridge& b) {
@@ -222,6 +242,7 @@ void Generators::find_aligned() {
   };
   for (std::size_t i = 0; i < all.size(); ++i) {
     for (std::size_t j = i + 1; j < all.size(); ++j) {
+      hear_stop();
       if (all[j].unit[0] - all[i].unit[0] > kWidth) break;
       if (std::abs(all[j].unit[1] - all[i].unit[1]) > kWidth ||
           std::abs(all[j].unit[2] - all[i].unit[2]) > kWidth) {
@@ -242,6 +263,7 @@ void Generators::find_aligned() {
 void Generators::find_object_boxes() {
   std::vector<Point> points;
   for (const Object& object : scene_->objects()) {
+    hear_stop();
     points.clear();
     for (const int f : object.faces) {
       for (const int p : scene_->face_points(f)) points.push_back(scene_->point(p));
@@ -256,6 +278,7 @@ void Generators::find_blockers() {
   const Scene& s = *scene_;
   std::vector<Box> boxes;
   for (std::size_t o = 0; o < s.objects().size(); ++o) {
+    hear_stop();
     const auto& faces = s.objects()[o].faces;
     if (convex_[o] == 0 || faces.size() > kFewFaces) {
       for (const int f : faces) {
@@ -270,11 +293,12 @@ void Generators::find_blockers() {
   blocker_tree_ = Bvh(boxes, 1);
 }
 
-void Generators::find_inside() {
+void Generators::find_inside(const Request& request, Stage& stage) {
   const SolidIndex solids(*scene_);
-  for (const Star& star : stars_) {
-    inside_.push_back(in_material(*scene_, solids, scene_->point(star.point)) ? 1 : 0);
-  }
+  inside_.resize(stars_.size());
+  for_each_of(0, stars_.size(), stars_.size(), request, stage, [&](std::size_t i) {
+    inside_[i] = in_material(*scene_, solids, scene_->point(stars_[i].point)) ? 1 : 0;
+  });
   for (const auto flag : inside_) inside_count_ += flag;
 }
 

@@ -13,6 +13,7 @@
 #include "linespace/contact_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
+#include "linespace/stage_internal.h"
 #include "skeleton/ridge_groups_internal.h"
 #include "skeleton/ridge_sides_internal.h"
 #include "skeleton/skeleton.h"
@@ -110,7 +111,11 @@ struct Star {
 
 class Generators {
  public:
-  Generators(const Scene& scene, int threads, EventMode events = EventMode::Solid);
+  /// Of the request, budget (counted from `start`), stop, progress and threads count.
+  /// Throws Stopped.  Cost: n log n for n faces where few of them touch.
+  explicit Generators(const Scene& scene, EventMode events = EventMode::Solid,
+                      const Request& request = {},
+                      Stage::Clock::time_point start = Stage::Clock::now());
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   /// Polygon mode: ridges() holds creases at which lines only end too.
@@ -181,15 +186,22 @@ class Generators {
   void find_outlines();
   void find_object_boxes();
   void find_blockers();
-  void find_ridges();
+  void find_ridges(const Request& request, Stage& stage);
   struct EdgeFaces;  // the faces at one edge
+  [[nodiscard]] EdgeFaces look_at_edge(int edge) const;
+  [[nodiscard]] int extreme_half_plane(const Edge& e, const EdgeFaces& at,
+                                       Sign wanted) const;
+  [[nodiscard]] bool fronts_face_gap(const Edge& e, const EdgeFaces& at) const;
+  void find_touching(const Edge& e, EdgeFaces& at) const;
+  void add_edge(int edge, const EdgeFaces& at, std::vector<Box>& boxes);
   void add_ridge(int edge, const EdgeFaces& at, std::vector<Box>& boxes);
   void add_gaps(int edge, const EdgeFaces& at, std::vector<Box>& boxes);
   bool join_ridge(int edge, const EdgeFaces& at);
   [[nodiscard]] bool shows_crease(std::array<std::int32_t, 2> points,
                                   std::int32_t first_edge, std::int32_t last_edge) const;
-  void find_stars();
-  void find_inside();
+  void find_stars(const Request& request, Stage& stage);
+  [[nodiscard]] Star star_at(int point) const;
+  void find_inside(const Request& request, Stage& stage);
   void find_aligned();
 
   const Scene* scene_;

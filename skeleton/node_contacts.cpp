@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "linespace/stop_scope_internal.h"
 #include "skeleton/node_contacts_internal.h"
 
 namespace sightline::internal {
@@ -86,6 +87,7 @@ bool pressed_at(const Generators& g, const LineScan& scan, int contact,
   const std::vector<int> faces = scan.faces_at(contact, t);
   const auto opposite = [&](int f, int h) {
     for (const int p : scene.corners()) {
+      hear_stop();
       const Sign s = g.face_plane(f)(scene.point(p));
       if (s != Sign::Zero) return s == -g.face_plane(h)(scene.point(p));
     }

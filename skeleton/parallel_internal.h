@@ -3,22 +3,26 @@
 
 #pragma once
 
+#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/parallel_pipeline.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <mutex>
 #include <optional>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 #include "linespace/predicates.h"
 #include "linespace/request.h"
+#include "linespace/stage_internal.h"
 #include "skeleton/skeleton.h"
 
 namespace sightline::internal {
@@ -33,25 +37,56 @@ namespace sightline::internal {
           a.by_exact - b.by_exact};
 }
 
-/// The request's budget, counted from `start`, has ended or a stop is requested.
-[[nodiscard]] inline bool must_stop(const Request& request,
-                                    std::chrono::steady_clock::time_point start) {
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  return request.stop.stop_requested() || elapsed.count() > request.budget_seconds;
+/// Calls step(i) for i = from, ..., to - 1 on several threads, in no order.  Steps must
+/// not depend on each other; they may hear_stop().  The stage hears of the share of
+/// `count` that is done, and throws Stopped.  Predicates run at the calling thread's
+/// precision and are counted there.
+template <class Step>
+void for_each_of(std::size_t from, std::size_t to, std::size_t count,
+                 const Request& request, Stage& stage, Step&& step) {
+  constexpr std::size_t kBlock = 256;
+  const auto threads = static_cast<std::size_t>(threads_of(request));
+  const Precision precision = thread_precision;
+  const StageCounts at_first = thread_stage_counts();
+  std::atomic<std::size_t> done{from};
+  std::mutex adding;
+  StageCounts sum = at_first;
+  const std::function<bool()> stop = [&] { return stage.stopped(); };
+  const auto block = [&](const oneapi::tbb::blocked_range<std::size_t>& range) {
+    const PrecisionScope scope(precision);
+    const StopScope stop_scope(stop, &stage.name());
+    const StageCounts before = thread_stage_counts();
+    for (std::size_t i = range.begin(); i < range.end(); ++i) step(i);
+    const StageCounts used = difference(thread_stage_counts(), before);
+    const std::size_t so_far = done += range.size();
+    stage.check(static_cast<double>(so_far) / static_cast<double>(count));
+    const std::scoped_lock lock(adding);
+    sum.by_double += used.by_double;
+    sum.by_interval += used.by_interval;
+    sum.by_exact += used.by_exact;
+  };
+  oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                    threads);
+  oneapi::tbb::task_arena arena(static_cast<int>(threads));
+  arena.execute([&] {
+    oneapi::tbb::parallel_for(oneapi::tbb::blocked_range<std::size_t>(from, to, kBlock),
+                              block, oneapi::tbb::simple_partitioner());
+  });
+  thread_stage_counts() = sum;  // this thread's own blocks are in it too
 }
 
 /// Calls step(worker, i) for i = 0, ..., count - 1 on several threads, with a worker per
 /// thread from make(), and consume(i, result) with what it returns: one at a time, in
 /// order, soon after, so that results need not be held.  Stops early once must_stop():
 /// what is finished by then is consumed, a prefix of all, so that a step that asks
-/// must_stop() itself may break off.  Stops, too, when consume returns false, after which
-/// nothing is consumed.  Returns why not all was consumed, or Nothing.  Progress goes
-/// from progress[0] to progress[1].
+/// must_stop() itself may break off; one that calls hear_stop() does.  Stops, too, when
+/// consume returns false, after which nothing is consumed.  Returns why not all was
+/// consumed, or Nothing.  Progress is told under the name of the stage.
 template <class Make, class Step, class Consume>
 StoppedBy for_each_parallel(std::size_t count, const Request& request,
                             std::chrono::steady_clock::time_point start,
-                            std::array<double, 2> progress, StageCounts& counts,
-                            Make&& make, Step&& step, Consume&& consume) {
+                            std::string_view stage, StageCounts& counts, Make&& make,
+                            Step&& step, Consume&& consume) {
   const int threads = threads_of(request);
   using Worker = decltype(make());
   using Result = decltype(step(*std::declval<Worker&>(), std::size_t{0}));
@@ -77,22 +112,30 @@ StoppedBy for_each_parallel(std::size_t count, const Request& request,
     }
     return next++;
   };
+  const std::function<bool()> stop = [&] {
+    return stopped.load(std::memory_order_relaxed) || must_stop(request, start);
+  };
+  // nullopt once it must stop.
+  const auto unless_stopped = [&](std::size_t i) -> std::optional<Result> {
+    const StopScope scope(stop);
+    try {
+      hear_stop_now();
+      Worker& worker = workers.local();
+      if (!worker) worker = make();
+      Result result = step(*worker, i);
+      hear_stop_now();
+      return result;
+    } catch (const Stopped&) {
+      stopped = true;
+      return std::nullopt;
+    }
+  };
   const auto compute = [&](std::size_t i) {
     const PrecisionScope scope(request.precision);
     const StageCounts at_first = thread_stage_counts();
     auto item = std::make_shared<Item>();
     item->number = i;
-    Worker& worker = workers.local();
-    if (!worker) worker = make();
-    if (must_stop(request, start)) stopped = true;
-    if (!stopped.load(std::memory_order_relaxed)) {
-      Result result = step(*worker, i);
-      if (must_stop(request, start)) {
-        stopped = true;
-      } else {
-        item->result.emplace(std::move(result));
-      }
-    }
+    item->result = unless_stopped(i);
     item->counts = difference(thread_stage_counts(), at_first);
     return item;
   };
@@ -112,7 +155,7 @@ StoppedBy for_each_parallel(std::size_t count, const Request& request,
     if (request.progress) {
       const double share = static_cast<double>(item->number + 1) /
                            static_cast<double>(std::max<std::size_t>(1, count));
-      request.progress(progress[0] + (progress[1] - progress[0]) * share);
+      request.progress(stage, share);
     }
   };
   arena.execute([&] {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "linespace/stop_scope_internal.h"
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/plane_crossings_internal.h"
@@ -66,6 +67,7 @@ std::vector<ExactPoint> plane_crossings(const Scene& scene, std::span<const int>
   sort_unique(sides);
   std::vector<ExactPoint> found;
   for (std::size_t i = 0; i < sides.size(); ++i) {
+    hear_stop_now();
     for (std::size_t j = i + 1; j < sides.size(); ++j) {
       if (auto x = crossing(scene, sides[i], sides[j], off_plane)) {
         found.push_back(std::move(*x));

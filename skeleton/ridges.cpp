@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <optional>
 
+#include "linespace/stop_scope_internal.h"
 #include "skeleton/drawn_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/parallel_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -119,149 +121,197 @@ std::vector<std::int32_t> facets_of(const Scene& scene,
 }  // namespace
 
 struct Generators::EdgeFaces {
+  // What the edge can become: nothing; a part of the ridge before it, if that has the
+  // same ends; or a ridge of its own too.
+  enum class Use : std::uint8_t { None, JoinOnly, Ridge };
+
   std::vector<std::int32_t> thirds, faces;  // a point of each half-plane, its face
   int a = -1, b = -1;                       // those that bound a gap of more than half
   bool reflex = false;                      // of a closed object: that gap is inside
   bool touched = false, foot = false;
   std::vector<std::int32_t> pierced_by = {};  // as of Ridge
   bool many = false;                          // polygon mode: more than two half-planes
+  Use use = Use::None;
   [[nodiscard]] bool has_gap() const { return a >= 0 && b >= 0; }
 };
 
-void Generators::find_ridges() {
-  const Scene& s = *scene_;
-  ridge_of_edge_.assign(s.edges().size(), -1);
+void Generators::find_ridges(const Request& request, Stage& stage) {
+  const auto edges = scene_->edges();
+  ridge_of_edge_.assign(edges.size(), -1);
   std::vector<Box> boxes;
-  for (std::size_t i = 0; i < s.edges().size(); ++i) {
-    const Edge& e = s.edges()[i];
-    const Point& e0 = s.point(e.points[0]);
-    const Point& e1 = s.point(e.points[1]);
-    // The third point of each face at the edge gives the direction of its half-plane.
-    EdgeFaces at;
-    auto& [thirds, faces, a, b, reflex, is_touched, is_foot, pierced_by, many] = at;
-    for (const Edge::Side& side : e.sides) {
-      for (const int p : s.face_points(side.face)) {
-        if (collinear(e0, e1, s.point(p))) continue;
-        thirds.push_back(p);
-        faces.push_back(side.face);
-        break;
-      }
+  // Edges are looked at in parallel, some at a time; ridges are added in their order.
+  constexpr std::size_t kAtOnce = 1 << 16;
+  std::vector<EdgeFaces> looked_at;
+  for (std::size_t first = 0; first < edges.size(); first += kAtOnce) {
+    const std::size_t last = std::min(first + kAtOnce, edges.size());
+    looked_at.assign(last - first, {});
+    for_each_of(first, last, edges.size(), request, stage, [&](std::size_t i) {
+      looked_at[i - first] = look_at_edge(static_cast<int>(i));
+    });
+    for (std::size_t i = first; i < last; ++i) {
+      hear_stop();
+      add_edge(static_cast<int>(i), looked_at[i - first], boxes);
     }
-    // The two half-planes with all others strictly to one side of them.
-    const auto extreme = [&](Sign wanted) {
-      for (std::size_t k = 0; k < thirds.size(); ++k) {
-        bool ok = true;
-        for (std::size_t l = 0; l < thirds.size() && ok; ++l) {
-          if (l == k) continue;
-          const Sign t = orient3d(e0, e1, s.point(thirds[k]), s.point(thirds[l]));
-          if (t == Sign::Zero) {
-            // Same half-plane or the opposite one: told apart by any plane through the
-            // edge other than theirs.
-            const InPlaneSide left_of(s, faces[k]);
-            ok = left_of(e0, e1, s.point(thirds[k])) ==
-                 left_of(e0, e1, s.point(thirds[l]));
-          } else {
-            ok = t == wanted;
-          }
-        }
-        if (ok) return static_cast<int>(k);
-      }
-      return -1;
-    };
-    if (polygon() && thirds.size() > 2) {
-      EdgeFan fan(*this, e0, e1);
-      for (const int f : faces) fan.add(f);
-      fan.close();
-      many = fan.leaves().size() > 2;
-    }
-    a = extreme(Sign::Positive);
-    b = extreme(Sign::Negative);
-    if (!at.has_gap() && !polygon()) continue;
-    // In a closed object the gap must be outside: fronts face it.
-    const bool closed = solid_behind(e.sides[0].face);
-    reflex = closed && thirds.size() > 1 && e.kind == EdgeKind::Reflex;
-    if (reflex && !polygon()) continue;
-    if (closed && e.kind == EdgeKind::NonManifold && at.has_gap()) {
-      const auto fronts_gap = [&](int k, Sign wanted) {
-        // Positive side of (e0, e1, third) is the wedge for a, the gap for b.
-        const PlaneThrough p = face_plane_through(s, faces[k]);
-        const Point n = (p.b - p.a).cross(p.c - p.a);
-        const Point m = (e1 - e0).cross(s.point(thirds[k]) - e0);
-        return (n.dot(m) > 0) == (wanted == Sign::Positive);
-      };
-      bool some = false;
-      for (std::size_t k = 0; k < thirds.size(); ++k) {
-        if (orient3d(e0, e1, s.point(thirds[a]), s.point(thirds[k])) == Sign::Zero) {
-          some |= fronts_gap(static_cast<int>(k), Sign::Negative);
-        }
-      }
-      if (!some && !polygon()) continue;
-      if (!some) a = b = -1;
-    }
-    const Box box = box_of(std::array<Point, 2>{e0, e1});
-    EdgeTouch touched = EdgeTouch::None;
-    std::vector<std::array<Rational, 2>> stretches;
-    std::vector<int> grounds;  // faces that contain a part of the edge
-    face_tree_.traverse(
-        [&](const Box& other) {
-          return (polygon() || touched != EdgeTouch::ContainsInside) &&
-                 boxes_meet(box, other);
-        },
-        [&](std::uint32_t item) {
-          const int f = static_cast<int>(item);
-          if (!polygon() && touched == EdgeTouch::ContainsInside) return;
-          if (has_point(s, f, e.points[0]) && has_point(s, f, e.points[1])) {
-            const bool own = std::find(faces.begin(), faces.end(), f) != faces.end();
-            if (own || s.faces()[f].object == e.object) return;
-          }
-          // Faces along a chain of mesh edges merged into this one are its own.
-          for (const int own : faces) {
-            if (s.faces()[own].facet == s.faces()[f].facet) return;
-          }
-          const EdgeTouch touch = touch_of(s, face_planes_[f], f, e0, e1);
-          touched = std::max(touched, touch);
-          if (touch == EdgeTouch::Pierced) pierced_by.push_back(f);
-          if (touch == EdgeTouch::ContainsInside) grounds.push_back(f);
-          if (touch == EdgeTouch::Touches && face_planes_[f](e0) == Sign::Zero &&
-              face_planes_[f](e1) == Sign::Zero) {
-            if (const auto stretch = stretch_inside(s, f, e0, e1))
-              stretches.push_back(*stretch), grounds.push_back(f);
-          }
-        });
-    const bool covered = cover_edge(std::move(stretches));
-    const bool inside_faces = covered || touched == EdgeTouch::ContainsInside;
-    // The foot of a wall is a valley of the union; what hangs below an open floor too.
-    const bool foot =
-        polygon() && inside_faces &&
-        std::any_of(grounds.begin(), grounds.end(), [&](int f) {
-          const bool solid = solid_behind(f);
-          return std::any_of(thirds.begin(), thirds.end(), [&](int p) {
-            const Sign side = face_planes_[f](s.point(p));
-            return side == Sign::Positive || (!solid && side == Sign::Negative);
-          });
-        });
-    is_foot = foot;
-    is_touched = touched == EdgeTouch::Pierced || touched == EdgeTouch::Touches || foot;
-    if (polygon() || touched != EdgeTouch::Pierced) pierced_by.clear();
-    if (covered && !foot) continue;
-    const int edge = static_cast<int>(i);
-    // Edges of several objects that coincide are one generator.
-    if (join_ridge(edge, at)) continue;
-    if (inside_faces && !foot) continue;
-    ridge_of_edge_[i] = static_cast<int>(ridges_.size());
-    if (many && !is_touched) {
-      add_gaps(edge, at, boxes);
-    } else {
-      add_ridge(edge, at, boxes);
-    }
-    if (ridge_of_edge_[i] == static_cast<int>(ridges_.size())) ridge_of_edge_[i] = -1;
   }
   ridge_tree_ = Bvh(boxes);
   constexpr int kGroup = 32;  // speed only
   ridge_groups_ = ridge_groups(ridge_tree_, kGroup);
+  ridge_sides_.reserve(ridges_.size());
   for (const std::uint32_t i : ridge_tree_.items()) {
-    ridge_sides_.emplace_back(s, ridges_[i]);
+    ridge_sides_.emplace_back(*scene_, ridges_[i]);
   }
+}
+
+// The edge becomes a ridge, or a part of one, or nothing.
+void Generators::add_edge(int edge, const EdgeFaces& at, std::vector<Box>& boxes) {
+  if (at.use == EdgeFaces::Use::None) return;
+  // Edges of several objects that coincide are one generator.
+  if (join_ridge(edge, at)) return;
+  if (at.use == EdgeFaces::Use::JoinOnly) return;
+  ridge_of_edge_[edge] = static_cast<int>(ridges_.size());
+  if (at.many && !at.touched) {
+    add_gaps(edge, at, boxes);
+  } else {
+    add_ridge(edge, at, boxes);
+  }
+  if (ridge_of_edge_[edge] == static_cast<int>(ridges_.size())) ridge_of_edge_[edge] = -1;
+}
+
+// The faces at the edge, the gap between them, and what other faces touch the edge.
+Generators::EdgeFaces Generators::look_at_edge(int edge) const {
+  const Scene& s = *scene_;
+  const Edge& e = s.edges()[edge];
+  const Point& e0 = s.point(e.points[0]);
+  const Point& e1 = s.point(e.points[1]);
+  // The third point of each face at the edge gives the direction of its half-plane.
+  EdgeFaces at;
+  for (const Edge::Side& side : e.sides) {
+    for (const int p : s.face_points(side.face)) {
+      if (collinear(e0, e1, s.point(p))) continue;
+      at.thirds.push_back(p);
+      at.faces.push_back(side.face);
+      break;
+    }
+  }
+  if (polygon() && at.thirds.size() > 2) {
+    EdgeFan fan(*this, e0, e1);
+    for (const int f : at.faces) fan.add(f);
+    fan.close();
+    at.many = fan.leaves().size() > 2;
+  }
+  at.a = extreme_half_plane(e, at, Sign::Positive);
+  at.b = extreme_half_plane(e, at, Sign::Negative);
+  if (!at.has_gap() && !polygon()) return at;
+  // In a closed object the gap must be outside: fronts face it.
+  const bool closed = solid_behind(e.sides[0].face);
+  at.reflex = closed && at.thirds.size() > 1 && e.kind == EdgeKind::Reflex;
+  if (at.reflex && !polygon()) return at;
+  if (closed && e.kind == EdgeKind::NonManifold && at.has_gap() &&
+      !fronts_face_gap(e, at)) {
+    if (!polygon()) return at;
+    at.a = at.b = -1;
+  }
+  find_touching(e, at);
+  return at;
+}
+
+// The half-plane at the edge to one side of which all others strictly are: a position in
+// at.thirds, -1 when there is none.
+int Generators::extreme_half_plane(const Edge& e, const EdgeFaces& at,
+                                   Sign wanted) const {
+  const Scene& s = *scene_;
+  const Point& e0 = s.point(e.points[0]);
+  const Point& e1 = s.point(e.points[1]);
+  for (std::size_t k = 0; k < at.thirds.size(); ++k) {
+    hear_stop_now();
+    bool ok = true;
+    for (std::size_t l = 0; l < at.thirds.size() && ok; ++l) {
+      if (l == k) continue;
+      const Sign t = orient3d(e0, e1, s.point(at.thirds[k]), s.point(at.thirds[l]));
+      if (t == Sign::Zero) {
+        // Same half-plane or the opposite one: told apart by any plane through the edge
+        // other than theirs.
+        const InPlaneSide left_of(s, at.faces[k]);
+        ok = left_of(e0, e1, s.point(at.thirds[k])) ==
+             left_of(e0, e1, s.point(at.thirds[l]));
+      } else {
+        ok = t == wanted;
+      }
+    }
+    if (ok) return static_cast<int>(k);
+  }
+  return -1;
+}
+
+// Some face in half-plane a shows its front to the gap.
+bool Generators::fronts_face_gap(const Edge& e, const EdgeFaces& at) const {
+  const Scene& s = *scene_;
+  const Point& e0 = s.point(e.points[0]);
+  const Point& e1 = s.point(e.points[1]);
+  for (std::size_t k = 0; k < at.thirds.size(); ++k) {
+    const Point& third = s.point(at.thirds[k]);
+    if (orient3d(e0, e1, s.point(at.thirds[at.a]), third) != Sign::Zero) continue;
+    // The wedge is where e0, e1, third appear counter-clockwise.
+    const InPlaneSide left_of(s, at.faces[k]);
+    if (left_of(e0, e1, third) == Sign::Negative) return true;
+  }
+  return false;
+}
+
+// How faces that are not the edge's own touch it, and what it can become.
+void Generators::find_touching(const Edge& e, EdgeFaces& at) const {
+  const Scene& s = *scene_;
+  const Point& e0 = s.point(e.points[0]);
+  const Point& e1 = s.point(e.points[1]);
+  const Box box = box_of(std::array<Point, 2>{e0, e1});
+  EdgeTouch touched = EdgeTouch::None;
+  std::vector<std::array<Rational, 2>> stretches;
+  std::vector<int> grounds;  // faces that contain a part of the edge
+  const auto is_own = [&](int f) {
+    if (has_point(s, f, e.points[0]) && has_point(s, f, e.points[1])) {
+      const bool own = std::find(at.faces.begin(), at.faces.end(), f) != at.faces.end();
+      if (own || s.faces()[f].object == e.object) return true;
+    }
+    // Faces along a chain of mesh edges merged into this one are its own.
+    return std::any_of(at.faces.begin(), at.faces.end(), [&](int own) {
+      return s.faces()[own].facet == s.faces()[f].facet;
+    });
+  };
+  face_tree_.traverse(
+      [&](const Box& other) {
+        return (polygon() || touched != EdgeTouch::ContainsInside) &&
+               boxes_meet(box, other);
+      },
+      [&](std::uint32_t item) {
+        hear_stop();
+        const int f = static_cast<int>(item);
+        if (!polygon() && touched == EdgeTouch::ContainsInside) return;
+        if (is_own(f)) return;
+        const EdgeTouch touch = touch_of(s, face_planes_[f], f, e0, e1);
+        touched = std::max(touched, touch);
+        if (touch == EdgeTouch::Pierced) at.pierced_by.push_back(f);
+        if (touch == EdgeTouch::ContainsInside) grounds.push_back(f);
+        if (touch == EdgeTouch::Touches && face_planes_[f](e0) == Sign::Zero &&
+            face_planes_[f](e1) == Sign::Zero) {
+          if (const auto stretch = stretch_inside(s, f, e0, e1))
+            stretches.push_back(*stretch), grounds.push_back(f);
+        }
+      });
+  const bool covered = cover_edge(std::move(stretches));
+  const bool inside_faces = covered || touched == EdgeTouch::ContainsInside;
+  // The foot of a wall is a valley of the union; what hangs below an open floor too.
+  at.foot = polygon() && inside_faces &&
+            std::any_of(grounds.begin(), grounds.end(), [&](int f) {
+              const bool solid = solid_behind(f);
+              return std::any_of(at.thirds.begin(), at.thirds.end(), [&](int p) {
+                const Sign side = face_planes_[f](s.point(p));
+                return side == Sign::Positive || (!solid && side == Sign::Negative);
+              });
+            });
+  at.touched = touched == EdgeTouch::Pierced || touched == EdgeTouch::Touches || at.foot;
+  if (polygon() || touched != EdgeTouch::Pierced) at.pierced_by.clear();
+  if (covered && !at.foot) return;
+  at.use = inside_faces && !at.foot ? EdgeFaces::Use::JoinOnly : EdgeFaces::Use::Ridge;
 }
 
 // To the ridge of an edge with the same ends, found before.

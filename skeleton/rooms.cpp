@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "linespace/rational_internal.h"
+#include "linespace/stop_scope_internal.h"
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/rooms_internal.h"
@@ -58,6 +59,7 @@ bool reaches_inside(const RoomsQuestion& q, int face, const Object& object) {
     const auto t = plane_points(q.scene, f);
     planes.push_back({exact_point(q.scene.point(t[0])), exact_point(q.scene.point(t[1])),
                       exact_point(q.scene.point(t[2]))});
+    hear_stop_now();
     part = clipped(part, planes.back());
     if (part.empty()) return false;
   }
@@ -74,6 +76,7 @@ bool is_empty(const RoomsQuestion& q, int room) {
   bool empty = true;
   q.face_tree.traverse([&](const Box& other) { return empty && boxes_meet(box, other); },
                        [&](std::uint32_t item) {
+                         hear_stop();
                          const int f = static_cast<int>(item);
                          if (!empty || q.scene.faces()[f].object == room) return;
                          empty = !reaches_inside(q, f, object);
@@ -96,6 +99,7 @@ bool in_material(const Scene& scene, const SolidIndex& solids, const Point& p) {
   if (scene.hollows().empty()) return solids.in_solid(p);
   std::vector<int> around = solids.solids_around(p);
   for (const Scene::Hollow& hollow : scene.hollows()) {
+    hear_stop();
     const auto at = std::find(around.begin(), around.end(), hollow.around);
     if (at == around.end()) continue;
     const auto w = solids.windings(hollow.object, p);

@@ -57,17 +57,19 @@ void add_view(const VertexView& view, bool eee_follows, NodeJoiner& nodes,
 }
 
 void build_ev(const Generators& generators, const SkeletonRequest& request,
-              Clock::time_point start, double progress_share, Skeleton& skeleton,
-              NodeJoiner& nodes) {
+              Clock::time_point start, Skeleton& skeleton, NodeJoiner& nodes) {
+  const internal::Stage stage(request, "EV arcs", start);
   const EvPart part = internal::ev_part(generators, request);
   const std::vector<int> stars = internal::asked_stars(generators, part);
   const auto runs = internal::near_each_other(generators, stars);
   skeleton.vertices_asked = stars.size();
   std::optional<SkeletonLines> lines;
-  if (part.by_lines) lines.emplace(generators.scene());
+  if (part.by_lines) {
+    lines.emplace(generators.scene(), internal::what_is_left(request, start));
+  }
   const SkeletonLines* pieces = lines ? &*lines : nullptr;
   skeleton.stopped_by = internal::for_each_parallel(
-      runs.size(), request, start, {0, progress_share}, skeleton.predicates,
+      runs.size(), request, start, "EV arcs", skeleton.predicates,
       [&] {
         return std::make_unique<CornerViews>(generators, part, pieces,
                                              request.feature_size);
@@ -97,42 +99,58 @@ void check(const SkeletonRequest& request) {
   }
 }
 
+// Of the parts whose set-up had no time: nothing is done, and of the whole scene it is
+// not known what will not be asked.
+void ask_for_all(const Scene& scene, const SkeletonRequest& request, Skeleton& skeleton) {
+  const auto ask = [](bool wanted, std::size_t count, std::size_t& asked) {
+    if (wanted && asked == 0) asked = count;
+  };
+  ask(request.ev, scene.corners().size(), skeleton.vertices_asked);
+  ask(request.eee, scene.edges().size(), skeleton.edges_asked);
+  ask(request.ff, scene.facets().size(), skeleton.facets_asked);
+}
+
 }  // namespace
 
 Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
-  check(request);
-  const auto start = Clock::now();
-  Skeleton skeleton;
-  const StageCounts before = thread_stage_counts();
-  const Generators generators(scene, internal::threads_of(request), request.events);
-  skeleton.predicates = internal::difference(thread_stage_counts(), before);
-  skeleton.events = request.events;
-  skeleton.simplified = internal::simplified_by(scene, request.feature_size);
-  NodeJoiner nodes(skeleton);
-  build_ev(generators, request, start, 1, skeleton, nodes);
-  nodes.finish_ends();
-  return skeleton;
+  SkeletonRequest ev = request;
+  ev.ev = true;
+  ev.eee = ev.ff = false;
+  return build_skeleton(scene, ev);
 }
 
 Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
   check(request);
   const auto start = Clock::now();
   Skeleton skeleton;
-  const StageCounts before = thread_stage_counts();
-  const Generators generators(scene, internal::threads_of(request), request.events);
-  skeleton.predicates = internal::difference(thread_stage_counts(), before);
   skeleton.events = request.events;
   skeleton.simplified = internal::simplified_by(scene, request.feature_size);
-  const double share = !request.ev ? 0 : request.eee ? 0.3 : request.ff ? 0.9 : 1;
-  const double last = request.ff ? (request.ev || request.eee ? 0.9 : 0) : 1;
+  const StageCounts before = thread_stage_counts();
+  std::optional<Generators> generators;
   NodeJoiner nodes(skeleton);
-  if (request.ev) build_ev(generators, request, start, share, skeleton, nodes);
-  if (request.eee) {
-    internal::add_eee(generators, request, start, {share, last}, skeleton, nodes);
-  }
+  // A part that is stopped before its first step, in its set-up, throws: then the parts
+  // before it are the answer.
+  const auto until_stopped = [&](auto&& work) {
+    try {
+      work();
+    } catch (const Stopped&) {
+      skeleton.complete = false;
+      skeleton.stopped_by =
+          request.stop.stop_requested() ? StoppedBy::Request : StoppedBy::Seconds;
+      ask_for_all(scene, request, skeleton);
+    }
+  };
+  until_stopped([&] {
+    generators.emplace(scene, request.events, request, start);
+    skeleton.predicates = internal::difference(thread_stage_counts(), before);
+    if (request.ev) build_ev(*generators, request, start, skeleton, nodes);
+    if (request.eee) internal::add_eee(*generators, request, start, skeleton, nodes);
+  });
   nodes.finish_ends();
-  if (request.ff)
-    internal::add_face_pairs(generators, request, start, {last, 1}, skeleton, nodes);
+  if (generators && request.ff) {
+    until_stopped(
+        [&] { internal::add_face_pairs(*generators, request, start, skeleton, nodes); });
+  }
   return skeleton;
 }
 

@@ -120,9 +120,9 @@ FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends =
 
 struct SkeletonLines::Impl {
   // Arcs of polygon mode may have reflex edges, which generate nothing in solid mode.
-  explicit Impl(const Scene& s)
+  Impl(const Scene& s, const Request& request)
       : scene(s),
-        generators(s, 1, EventMode::Polygon),
+        generators(s, EventMode::Polygon, request),
         carriers(generators),
         far(generators, carriers) {}
 
@@ -218,7 +218,8 @@ struct SkeletonLines::Impl {
   internal::FarPieces far;
 };
 
-SkeletonLines::SkeletonLines(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+SkeletonLines::SkeletonLines(const Scene& scene, const Request& request)
+    : impl_(std::make_unique<Impl>(scene, request)) {}
 SkeletonLines::~SkeletonLines() = default;
 SkeletonLines::SkeletonLines(SkeletonLines&&) noexcept = default;
 

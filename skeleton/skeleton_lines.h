@@ -17,7 +17,8 @@ namespace sightline {
 /// Keeps a reference to the scene.  Immutable once built; safe to share between threads.
 class SkeletonLines {
  public:
-  explicit SkeletonLines(const Scene& scene);
+  /// Of the request, budget, stop, progress and threads count.  Throws Stopped.
+  explicit SkeletonLines(const Scene& scene, const Request& request = {});
   ~SkeletonLines();
   SkeletonLines(SkeletonLines&&) noexcept;
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "linespace/stop_scope_internal.h"
 #include "skeleton/degenerate_pair_internal.h"
 #include "skeleton/drawn_internal.h"
 #include "skeleton/node_contacts_internal.h"
@@ -234,6 +235,7 @@ void VertexViewer::view_group(std::uint32_t group) {
       stack[top++] = node.first;
       continue;
     }
+    hear_stop();
     for (std::uint32_t i = 0; i < node.count; ++i) {
       if (g_.ridge_sides(node.first + i).never_touched_from(at_)) continue;
       view_ridge(static_cast<int>(tree.items()[node.first + i]), out_);
@@ -312,6 +314,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   if (own_solid) return;
   if (collinear(at_, e0, e1)) return;  // along the edge: no family of lines
 
+  hear_stop_now();
   lists_->clear();
   ++pair_;
   for (const int end : r.points) point_sides_[end] = {pair_, Sign::Zero};

@@ -90,11 +90,11 @@ struct Found {
 }  // namespace
 
 struct ViewEvents::Impl {
-  Impl(const Scene& s, const Skeleton& k, const EndIndex& e)
+  Impl(const Scene& s, const Skeleton& k, const EndIndex& e, const Request& request)
       : scene(s),
         skeleton(k),
         ends(e),
-        generators(s, 1, k.events),
+        generators(s, k.events, request),
         carriers(generators) {}
 
   struct Path {
@@ -476,8 +476,9 @@ struct ViewEvents::Impl {
   mutable std::optional<internal::ArcIndex> index;
 };
 
-ViewEvents::ViewEvents(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends)
-    : impl_(std::make_unique<Impl>(scene, skeleton, ends)) {}
+ViewEvents::ViewEvents(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends,
+                       const Request& request)
+    : impl_(std::make_unique<Impl>(scene, skeleton, ends, request)) {}
 ViewEvents::~ViewEvents() = default;
 ViewEvents::ViewEvents(ViewEvents&&) noexcept = default;
 

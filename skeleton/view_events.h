@@ -39,7 +39,8 @@ struct ViewEvent {
 /// must belong together.
 class ViewEvents {
  public:
-  ViewEvents(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends);
+  ViewEvents(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends,
+             const Request& request = {});
   ~ViewEvents();
   ViewEvents(ViewEvents&&) noexcept;
 

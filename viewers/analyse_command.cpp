@@ -26,7 +26,6 @@ namespace fs = std::filesystem;
 
 struct AnalyseOptions : CommonOptions {
   std::string folder = "sightline-report";
-  double budget = std::numeric_limits<double>::infinity();
   std::vector<std::string> only;
   std::string up;
   std::vector<double> region;
@@ -272,13 +271,14 @@ std::vector<PagePicture> draw_pictures(const Scene& scene, const SkeletonLines& 
                                        const Skeleton& skeleton,
                                        const Highlights& highlights,
                                        const std::optional<std::array<Point, 2>>& region,
-                                       int up_axis) {
+                                       int up_axis, const Request& request) {
   ViewOptions view_options;
+  view_options.request = request;
   view_options.up_axis = up_axis;
   view_options.focus = region;
   SceneView view = view_scene(scene, view_options);
   if (region) add_box(view.drawing, *region, {0.84F, 0.15F, 0.24F});
-  const Canvas canvas(view.drawing, view.camera);
+  const Canvas canvas(view.drawing, view.camera, {.request = request});
   std::vector<PagePicture> pictures;
 
   if (!highlights.vertex.empty()) {
@@ -349,19 +349,25 @@ Json options_json(const AnalyseOptions& options) {
   return j;
 }
 
-Json missing_json(const Skeleton& skeleton, bool interrupted) {
+Json missing_json(const Skeleton& skeleton, const Session& session) {
   Json missing = Json::array();
   const auto add = [&](std::size_t done, std::size_t asked, const char* what) {
     if (done == asked) return;
     missing.push_back(fmt::format(
         "{}: {} of {} were not computed ({:.1f} %)",
-        interrupted ? "Interrupted" : "The budget ended first",
+        session.interrupted() ? "Interrupted" : "The budget ended first",
         fmt::format(fmt::runtime(what), asked - done), asked,
         100.0 * static_cast<double>(asked - done) / static_cast<double>(asked)));
   };
   add(skeleton.vertices_done, skeleton.vertices_asked, "the EV arcs of {}");
   add(skeleton.edges_done, skeleton.edges_asked, "the EEE arcs of {}");
   add(skeleton.facets_done, skeleton.facets_asked, "the FF nodes of {}");
+  if (!skeleton.complete && missing.empty()) {
+    missing.push_back("The skeleton: stopped in its set-up");
+  }
+  for (const std::string& name : session.unwritten()) {
+    missing.push_back("Not written: " + name);
+  }
   return missing;
 }
 
@@ -386,8 +392,8 @@ void print_summary(const Json& report, const fs::path& folder) {
                            (folder / "index.html").string());
 }
 
-Scene load(const AnalyseOptions& options, const fs::path& folder) {
-  if (!options.scene.empty()) return Scene(read_mesh(options.scene));
+Scene load(Session& session, const AnalyseOptions& options, const fs::path& folder) {
+  if (!options.scene.empty()) return read_scene(session, options.scene);
   const fs::path file = folder / kBuiltinSceneName;
   write_whole(file, builtin_scene());
   PolygonSoup soup = read_mesh(file.string());
@@ -395,14 +401,13 @@ Scene load(const AnalyseOptions& options, const fs::path& folder) {
   return Scene(std::move(soup));
 }
 
-ExitStatus run(const AnalyseOptions& options) {
+ExitStatus run(Session& session, const AnalyseOptions& options) {
   for (const std::string& name : options.only) {
     if (name != "skeleton") {
       throw UsageError(fmt::format(
           "--only: '{}' is not available in this version; available: skeleton", name));
     }
   }
-  const Interruption interruption;
   Outputs outputs(options);
   const OutputFolder report_folder(options.folder);
   const Meter meter;
@@ -414,49 +419,51 @@ ExitStatus run(const AnalyseOptions& options) {
   SkeletonRequest request;
   request.ff = true;
   request.region = region_box(options.region);
-  const Scene scene = load(options, folder);
+  const Scene scene = load(session, options, folder);
   log.done("load the scene");
-  const std::vector<Defect> defects = validate(scene);
+  const std::vector<Defect> defects = validate(scene, session.with_grace());
   log.done("look for defects");
 
   // 2. The skeleton, within what is left of the budget.
   request.precision = options.precision;
   request.threads = options.threads;
-  request.budget_seconds = options.budget - meter.seconds();
-  request.stop = interruption.token();
+  session.limit(request);
   const StageCounts before = meter.predicates();
-  Skeleton skeleton;
-  {
-    Progress progress("skeleton");
-    request.progress = progress.callback();
-    skeleton = build_skeleton(scene, request);
-  }
+  const Skeleton skeleton = build_skeleton(scene, request);
   log.done("visibility skeleton");
   const std::size_t analysis_memory = peak_memory_bytes();
 
   // 3. Files.
-  const SkeletonLines lines(scene);
+  std::optional<SkeletonLines> lines;
   const Highlights highlights = find_highlights(scene, skeleton);
-  const std::vector<RuledStrip> strips =
-      strips_of(scene, lines, skeleton, highlights.vertex);
   std::vector<std::string> files;
-  const fs::path vtk = options.vtk.empty() ? folder / "vtk" : fs::path(options.vtk);
-  for (const std::string& name : write_vtk(vtk, scene, {&skeleton, &strips})) {
-    if (options.vtk.empty()) files.push_back("vtk/" + name);
-  }
+  session.write("VTK files", [&](const Request& writing) {
+    lines.emplace(scene, writing);
+    const std::vector<RuledStrip> strips =
+        strips_of(scene, *lines, skeleton, highlights.vertex);
+    const fs::path vtk = options.vtk.empty() ? folder / "vtk" : fs::path(options.vtk);
+    for (const std::string& name : write_vtk(vtk, scene, {&skeleton, &strips}, writing)) {
+      if (options.vtk.empty()) files.push_back("vtk/" + name);
+    }
+  });
   log.done("VTK files");
-  std::vector<PagePicture> pictures =
-      draw_pictures(scene, lines, skeleton, highlights, request.region,
-                    options.up.empty() ? -1 : options.up[0] - 'x');
-  for (const PagePicture& picture : pictures) {
-    write_whole(folder / picture.file, picture.png);
-    files.push_back(picture.file);
-  }
+  std::vector<PagePicture> pictures;
+  session.write("pictures", [&](const Request& writing) {
+    if (!lines) lines.emplace(scene, writing);
+    auto drawn = draw_pictures(scene, *lines, skeleton, highlights, request.region,
+                               options.up.empty() ? -1 : options.up[0] - 'x', writing);
+    for (const PagePicture& picture : drawn) {
+      write_whole(folder / picture.file, picture.png);
+      files.push_back(picture.file);
+    }
+    pictures = std::move(drawn);
+  });
   log.done("pictures");
+  const bool complete = skeleton.complete && session.unwritten().empty();
 
   // 4. The report.
-  Json report = answer_head("analyse", scene, skeleton.complete,
-                            {meter.seconds(), before + skeleton.predicates});
+  Json report = answer_head("analyse", scene, complete,
+                            {session.seconds(), before + skeleton.predicates});
   report["peak_memory_bytes"] = analysis_memory;
   report["peak_memory_bytes_with_pictures"] = peak_memory_bytes();
   report["options"] = options_json(options);
@@ -474,7 +481,7 @@ ExitStatus run(const AnalyseOptions& options) {
                         {"facets_asked", skeleton.facets_asked},
                         {"predicates", stage_counts(skeleton.predicates)}};
   report["stages"] = log.stages();
-  report["missing"] = missing_json(skeleton, interruption.token().stop_requested());
+  report["missing"] = missing_json(skeleton, session);
   files.insert(files.begin(), "report.json");
   if (options.scene.empty()) files.emplace_back(kBuiltinSceneName);
   report["files"] = files;
@@ -482,7 +489,7 @@ ExitStatus run(const AnalyseOptions& options) {
   write_whole(folder / "index.html", report_page(report, pictures));
   outputs.write_answer(report);
   if (options.may_print()) print_summary(report, folder);
-  return skeleton.complete ? kAnswered : kPartial;
+  return session.end(complete);
 }
 
 }  // namespace
@@ -513,9 +520,8 @@ Command add_analyse_command(CLI::App& app) {
       ->type_name("x|y|z")
       ->check(one_of({"x", "y", "z"}));
   add_region_option(*command, options->region);
-  add_budget_option(*command, options->budget);
   add_common_options(*command, *options);
-  return [options] { return run(*options); };
+  return command_of(options, run);
 }
 
 }  // namespace sightline::viewers

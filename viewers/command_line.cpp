@@ -1,12 +1,10 @@
 #include "viewers/command_line.h"
 
 #include <fmt/format.h>
-#include <pthread.h>
-#include <unistd.h>
 
-#include <atomic>
-#include <csignal>
-#include <cstdio>
+#include <utility>
+
+#include "linespace/mesh_io.h"
 
 namespace sightline::viewers {
 
@@ -46,12 +44,14 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
          "to measure what they cost and save (default exact)")
       ->type_name("exact|double")
       ->check(one_of({"exact", "double"}));
+  add_budget_option(app, options.budget);
 }
 
 void add_budget_option(CLI::App& app, double& seconds) {
   app.add_option("--budget", seconds,
-                 "seconds after which a partial answer is given, with exit status 3 "
-                 "(default: no limit)")
+                 "seconds, from the start of the program on, after which it ends with "
+                 "what it has, within a second, reading and writing included; exit "
+                 "status 3 (default: no limit)")
       ->type_name("S")
       ->check(number_above_zero());
 }
@@ -94,52 +94,10 @@ std::optional<std::array<Point, 2>> region_box(const std::vector<double>& region
   return std::array<Point, 2>{low, high};
 }
 
-struct Progress::State {
-  std::string what;
-  std::chrono::steady_clock::time_point last{};
-  bool shown = false;
-};
-
-Progress::Progress(std::string what) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  state_ = std::make_shared<State>();
-  state_->what = std::move(what);
+Scene read_scene(Session& session, const std::string& file) {
+  PolygonSoup soup = read_mesh(file, session.with_grace());
+  return Scene(std::move(soup), {}, session.with_grace());
 }
-
-Progress::~Progress() {
-  if (state_ && state_->shown) std::fputs("\r\033[K", stderr);
-}
-
-std::function<void(double)> Progress::callback() {
-  if (!state_) return {};
-  return [state = state_](double fraction) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - state->last < std::chrono::milliseconds(100)) return;
-    state->last = now;
-    state->shown = true;
-    std::fputs(fmt::format("\r{} {:3.0f} %", state->what, 100 * fraction).c_str(),
-               stderr);
-    std::fflush(stderr);
-  };
-}
-
-Interruption::Interruption() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  // Blocked here, so that threads made later leave them to the watcher.
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
-  watcher_ = std::jthread([signals, source = stop_](const std::stop_token& done) mutable {
-    const timespec patience{0, 50'000'000};
-    while (!done.stop_requested()) {
-      if (sigtimedwait(&signals, nullptr, &patience) < 0) continue;
-      if (!source.request_stop()) std::_Exit(kOurFailure);
-    }
-  });
-}
-
-Interruption::~Interruption() = default;
 
 Meter::Meter()
     : start_(std::chrono::steady_clock::now()), counts_(thread_stage_counts()) {}

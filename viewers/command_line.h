@@ -17,11 +17,9 @@
 #include "linespace/request.h"
 #include "viewers/answer.h"
 #include "viewers/option_checks.h"
+#include "viewers/session.h"
 
 namespace sightline::viewers {
-
-/// Exit statuses of CONTRACT.md.
-enum ExitStatus : int { kAnswered = 0, kOurFailure = 1, kBadInput = 2, kPartial = 3 };
 
 /// The command line asks for something that cannot be; what() is one line.
 class UsageError : public std::runtime_error {
@@ -29,8 +27,9 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Does a command's work once the command line has been read.
-using Command = std::function<ExitStatus()>;
+/// Does a command's work once the command line has been read.  Throws Stopped when the
+/// work was stopped before there was an answer.
+using Command = std::function<ExitStatus(Session&)>;
 
 struct CommonOptions {
   std::string scene;  ///< or the question's FILE
@@ -38,6 +37,7 @@ struct CommonOptions {
   std::string vtk;    ///< folder, empty for none
   int threads = 0;
   Precision precision = Precision::Exact;
+  double budget = std::numeric_limits<double>::infinity();  ///< seconds, for everything
 
   /// False when standard output belongs to the JSON answer.
   [[nodiscard]] bool may_print() const { return json != "-"; }
@@ -46,6 +46,7 @@ struct CommonOptions {
 void add_scene_argument(CLI::App& app, CommonOptions& options, bool required = true);
 /// FILE, for commands that are asked of a JSON file instead of a scene.
 void add_file_argument(CLI::App& app, CommonOptions& options, const std::string& help);
+/// --json, --vtk, --threads, --precision, --budget.
 void add_common_options(CLI::App& app, CommonOptions& options);
 void add_budget_option(CLI::App& app, double& seconds);
 /// --budget-mb, in bytes; stays as it is when not given.
@@ -57,35 +58,18 @@ void add_region_option(CLI::App& app, std::vector<double>& region);
 [[nodiscard]] std::optional<std::array<Point, 2>> region_box(
     const std::vector<double>& region, const char* option = "--region");
 
-/// A line on standard error that shows how far the work is; silent unless standard error
-/// is a terminal.
-class Progress {
- public:
-  explicit Progress(std::string what);
-  ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  [[nodiscard]] std::function<void(double)> callback();
+/// The command that runs under the budget among its options.
+template <class Options>
+Command command_of(std::shared_ptr<Options> options,
+                   ExitStatus (*run)(Session&, const Options&)) {
+  return [options, run](Session& session) {
+    session.set_budget(options->budget);
+    return run(session, *options);
+  };
+}
 
- private:
-  struct State;
-  std::shared_ptr<State> state_;
-};
-
-/// While it lives, a first interrupt (SIGINT or SIGTERM) asks for a stop, a second one
-/// ends the program.  Create it before other threads.
-class Interruption {
- public:
-  Interruption();
-  ~Interruption();
-  Interruption(const Interruption&) = delete;
-  Interruption& operator=(const Interruption&) = delete;
-  [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
-
- private:
-  std::stop_source stop_;
-  std::jthread watcher_;
-};
+/// Reads a mesh file and makes a scene of it, as stages of the session.
+[[nodiscard]] Scene read_scene(Session& session, const std::string& file);
 
 /// Seconds since it was made, and predicate calls of this thread since then.
 class Meter {

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 
+#include "linespace/stage_internal.h"
 #include "viewers/clip.h"
 #include "viewers/eee_surface.h"
 #include "viewers/palette.h"
@@ -239,8 +240,12 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
     if (options.box) elevations.insert(elevations.end(), {0.85, 1.1});
     Point best = Point::Zero();
     double best_score = -1;
+    internal::Stage stage(options.request, "choosing a view");
+    std::size_t tried = 0;
     for (const double elevation : elevations) {
       for (int turn = 0; turn < turns; ++turn) {
+        stage.check(static_cast<double>(tried++) /
+                    static_cast<double>(elevations.size() * turns));
         const Point direction =
             eye_direction(axis, elevation, static_cast<double>(turn) / turns);
         const Camera camera = frame(framed, direction, up, aspect);

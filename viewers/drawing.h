@@ -35,6 +35,8 @@ struct ViewOptions {
   /// From where to look, instead of from where most is seen; what is framed is held as
   /// look_from() does.
   std::optional<Look> look;
+  /// Stop, budget and progress; view_scene() throws Stopped.
+  Request request = {};
 };
 
 /// A scene ready to be drawn on.

@@ -5,7 +5,6 @@
 #include <iostream>
 #include <map>
 
-#include "linespace/mesh_io.h"
 #include "viewers/outputs.h"
 #include "viewers/vtk_export.h"
 
@@ -55,18 +54,23 @@ void print_summary(const Scene& scene, const Json& answer) {
   }
 }
 
-ExitStatus run(const CommonOptions& options) {
+ExitStatus run(Session& session, const CommonOptions& options) {
   Outputs outputs(options);
   const Meter meter;
   const PrecisionScope precision(options.precision);
-  const Scene scene(read_mesh(options.scene));
-  const std::vector<Defect> defects = validate(scene);
-  Json answer = answer_head("info", scene, true, {meter.seconds(), meter.predicates()});
+  const Scene scene = read_scene(session, options.scene);
+  const std::vector<Defect> defects = validate(scene, session.with_grace());
+  if (!options.vtk.empty()) {
+    session.write("VTK files", [&](const Request& request) {
+      write_vtk(options.vtk, scene, {}, request);
+    });
+  }
+  Json answer = answer_head("info", scene, session.unwritten().empty(),
+                            {session.seconds(), meter.predicates()});
   answer.update(info_json(scene, defects));
-  if (!options.vtk.empty()) write_vtk(options.vtk, scene, {});
   outputs.write_answer(answer);
   if (options.may_print()) print_summary(scene, answer);
-  return kAnswered;
+  return session.end(true);
 }
 
 }  // namespace
@@ -77,7 +81,7 @@ Command add_info_command(CLI::App& app) {
       app.add_subcommand("info", "what a scene holds: counts, groups, bounds, defects");
   add_scene_argument(*command, *options);
   add_common_options(*command, *options);
-  return [options] { return run(*options); };
+  return command_of(options, run);
 }
 
 }  // namespace sightline::viewers

@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "linespace/scene.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::viewers {
 namespace {
@@ -50,6 +51,7 @@ std::string read_whole(const std::string& file, std::size_t most) {
   std::string bytes;
   for (;;) {
     constexpr std::size_t kBlock = 1 << 20;
+    internal::hear_stop_now();
     const std::size_t size = bytes.size();
     // One block more than the file says it has, so that its end is seen.
     bytes.resize(std::max<std::size_t>(

@@ -13,7 +13,7 @@ inline constexpr const char* kStandardInput = "-";
 
 /// The bytes of a file, or of standard input.  Throws InvalidInput, "FILE: WHY", when
 /// there is no such file, it is a folder, it may not or cannot be read, or it has more
-/// than `most` bytes.
+/// than `most` bytes.  Hears a stop (linespace/stop_scope_internal.h) between blocks.
 [[nodiscard]] std::string read_whole(
     const std::string& file, std::size_t most = std::numeric_limits<std::size_t>::max());
 

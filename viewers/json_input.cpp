@@ -6,6 +6,7 @@
 
 #include "linespace/predicates.h"
 #include "viewers/input_file.h"
+#include "viewers/json_parse_internal.h"
 
 namespace sightline::viewers {
 namespace {
@@ -23,7 +24,7 @@ std::string_view without_number(std::string_view what) {
 nlohmann::json parse_file(const std::string& file) {
   const std::string bytes = read_whole(file, JsonInput::kLargestFile);
   try {
-    return nlohmann::json::parse(bytes);
+    return parse_json<nlohmann::json>(bytes);
   } catch (const nlohmann::json::exception& reason) {
     refuse_file(file, fmt::format("not JSON: {}", without_number(reason.what())));
   }

@@ -21,13 +21,13 @@ ExitStatus complain(ExitStatus status, const std::string& message) {
 }
 
 /// Parses the command line and runs the command; every error becomes a line and a status.
-ExitStatus run(CLI::App& app,
+ExitStatus run(Session& session, CLI::App& app,
                const std::vector<std::pair<std::string, Command>>& commands, int argc,
                char** argv) {
   try {
     app.parse(argc, argv);
     for (const auto& [name, run] : commands) {
-      if (app.got_subcommand(name)) return run();
+      if (app.got_subcommand(name)) return run(session);
     }
     return kOurFailure;
   } catch (const CLI::ParseError& error) {
@@ -36,6 +36,8 @@ ExitStatus run(CLI::App& app,
       return kAnswered;
     }
     return complain(kBadInput, told(app, error));
+  } catch (const sightline::Stopped&) {
+    return session.end_without_answer();
   } catch (const UsageError& error) {
     return complain(kBadInput, error.what());
   } catch (const OutputError& error) {
@@ -55,6 +57,7 @@ ExitStatus run(CLI::App& app,
 
 int main(int argc, char** argv) {
   prepare_process();
+  Session session;
   CLI::App app{
       "Exact 3D visibility: which lines touch what, and what that changes.\n"
       "Start with `sightline analyse`, which needs no file, or `sightline info FILE`.",
@@ -73,7 +76,7 @@ int main(int argc, char** argv) {
   commands.emplace_back("transversals", add_transversals_command(app));
   commands.emplace_back("view", add_view_command(app));
   commands.emplace_back("visible", add_visible_command(app));
-  const ExitStatus status = run(app, commands, argc, argv);
+  const ExitStatus status = run(session, app, commands, argc, argv);
   const std::string unwritten = standard_output_error();
   return unwritten.empty() || status == kOurFailure ? status
                                                     : complain(kOurFailure, unwritten);

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstring>
+#include <mutex>
 #include <streambuf>
 
 namespace sightline::viewers {
@@ -54,6 +55,11 @@ int open_retrying(const char* path, int flags, mode_t mode = 0) {
 // Temporary files that exist, for remove_temporary_files: a slot holds the path of one
 // or is null.  Files beyond the last slot are only cleaned up by their owners.
 std::array<std::atomic<const char*>, 64> temporary_files;
+
+struct {
+  std::mutex mutex;
+  std::vector<std::string> names;
+} written;
 
 void remember(const fs::path& path) {
   for (std::atomic<const char*>& slot : temporary_files) {
@@ -210,6 +216,13 @@ void OutputFile::commit() {
     forget(temporary_);
   }
   committed_ = true;
+  const std::scoped_lock lock(written.mutex);
+  written.names.push_back(path_ == "-" ? "standard output" : path_.string());
+}
+
+std::vector<std::string> written_files() {
+  const std::scoped_lock lock(written.mutex);
+  return written.names;
 }
 
 void write_whole(const fs::path& path, std::string_view bytes) {

@@ -95,6 +95,10 @@ class OutputFolder {
   std::vector<std::filesystem::path> made_;  // outermost first
 };
 
+/// Names of the files that commit() has made whole so far, in that order; "standard
+/// output" for "-".
+[[nodiscard]] std::vector<std::string> written_files();
+
 /// Removes the temporary files of all OutputFiles, for a program that must end at once.
 /// Allocates nothing and takes no lock.
 void remove_temporary_files() noexcept;

@@ -10,8 +10,12 @@
 #include <cmath>
 #include <limits>
 
+#include "linespace/stage_internal.h"
+
 namespace sightline::viewers {
 namespace {
+
+using internal::Stage;
 
 // Notation: eye coordinates have x to the right, y up and z = the depth along the view;
 // screen coordinates are samples from the top left, with w = 1/z, which is what varies
@@ -182,10 +186,11 @@ struct Surface {
 /// Ambient Obscurance Algorithm", 2011, equation 10, with a fixed 4 x 4 pattern of
 /// spirals so that the same picture comes out every time.
 std::vector<float> openness(const std::vector<Surface>& surfaces, int width, int height,
-                            double reach, double pixels_per_unit) {
+                            double reach, double pixels_per_unit, Stage& stage) {
   std::vector<float> open(surfaces.size(), 1.0F);
   constexpr int kSamples = 28;
   for (int y = 0; y < height; ++y) {
+    stage.check(static_cast<double>(y) / height);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + x;
       const Surface& here = surfaces[i];
@@ -216,9 +221,10 @@ std::vector<float> openness(const std::vector<Surface>& surfaces, int width, int
 /// The mean over the 4 x 4 pattern, among pixels of nearly the same plane.
 std::vector<float> smoothed(const std::vector<float>& values,
                             const std::vector<Surface>& surfaces, int width, int height,
-                            double reach) {
+                            double reach, Stage& stage) {
   std::vector<float> out(values.size(), 1.0F);
   for (int y = 0; y < height; ++y) {
+    stage.check(static_cast<double>(y) / height);
     for (int x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + x;
       const Surface& here = surfaces[i];
@@ -328,12 +334,14 @@ void fill_cut(const CutSolids& cut, const Projection& centred, int width, int he
 
 /// What each pixel's centre shows.
 std::vector<Surface> visible_surfaces(const Drawing& drawing,
-                                      const Projection& projection, int width,
-                                      int height) {
+                                      const Projection& projection, int width, int height,
+                                      Stage& stage) {
   const std::size_t size = static_cast<std::size_t>(width) * height;
   std::vector<Surface> surfaces(size, {Point::Zero(), Point::Zero()});
   std::vector<float> nearest(size, 0.0F);
   for (const PaintedTriangle& t : drawing.triangles) {
+    stage.at(static_cast<std::size_t>(&t - drawing.triangles.data()),
+             drawing.triangles.size());
     if (is_culled(t, projection.eye())) continue;
     const Point a = projection.to_eye(t.points[0]);
     Point normal = (projection.to_eye(t.points[1]) - a)
@@ -421,8 +429,8 @@ struct Canvas::Impl {
         projection(camera, width, height) {}
 
   void draw_background();
-  void draw_triangles(const Drawing& drawing, const Point& up);
-  void darken_crevices(const Drawing& drawing, const Camera& camera);
+  void draw_triangles(const Drawing& drawing, const Point& up, Stage& stage);
+  void darken_crevices(const Drawing& drawing, const Camera& camera, Stage& stage);
 };
 
 void Canvas::Impl::draw_background() {
@@ -438,8 +446,10 @@ void Canvas::Impl::draw_background() {
   }
 }
 
-void Canvas::Impl::draw_triangles(const Drawing& drawing, const Point& up) {
+void Canvas::Impl::draw_triangles(const Drawing& drawing, const Point& up, Stage& stage) {
   for (const PaintedTriangle& t : drawing.triangles) {
+    stage.at(static_cast<std::size_t>(&t - drawing.triangles.data()),
+             drawing.triangles.size());
     if (is_culled(t, projection.eye())) continue;
     const Colour c = shade(t, projection, up);
     const std::array<std::uint8_t, 3> paint{to_byte(c.red), to_byte(c.green),
@@ -462,16 +472,17 @@ void Canvas::Impl::draw_triangles(const Drawing& drawing, const Point& up) {
 }
 
 /// On a raster of one sample a pixel.
-void Canvas::Impl::darken_crevices(const Drawing& drawing, const Camera& camera) {
+void Canvas::Impl::darken_crevices(const Drawing& drawing, const Camera& camera,
+                                   Stage& stage) {
   const Projection coarse(camera, options.width, options.height);
   const std::vector<Surface> surfaces =
-      visible_surfaces(drawing, coarse, options.width, options.height);
+      visible_surfaces(drawing, coarse, options.width, options.height, stage);
   // The same on the picture whatever the angle.
   const double reach = 0.055 * (camera.target - camera.eye).norm() *
                        std::tan(0.5 * camera.field_of_view) / std::tan(0.3);
-  const std::vector<float> open =
-      smoothed(openness(surfaces, options.width, options.height, reach, coarse.focal()),
-               surfaces, options.width, options.height, reach);
+  const std::vector<float> open = smoothed(
+      openness(surfaces, options.width, options.height, reach, coarse.focal(), stage),
+      surfaces, options.width, options.height, reach, stage);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const std::size_t i = static_cast<std::size_t>(y) * width + x;
@@ -490,8 +501,10 @@ Canvas::Canvas(const Drawing& drawing, const Camera& camera,
     : impl_(std::make_unique<Impl>(camera, options)) {
   impl_->nearest.assign(static_cast<std::size_t>(impl_->width) * impl_->height, 0.0F);
   impl_->draw_background();
-  impl_->draw_triangles(drawing, camera.up.normalized());
-  if (options.ambient_occlusion) impl_->darken_crevices(drawing, camera);
+  Stage stage(impl_->options.request, "drawing faces");
+  impl_->draw_triangles(drawing, camera.up.normalized(), stage);
+  stage.begin("shading");
+  if (options.ambient_occlusion) impl_->darken_crevices(drawing, camera, stage);
 }
 
 Canvas::~Canvas() = default;
@@ -503,7 +516,9 @@ Image Canvas::picture(const Drawing& marks) const {
   image.rgb.reserve(static_cast<std::size_t>(image.width) * image.height * 3);
   // A band of rows at a time, so that the many numbers a sample takes here stay few.
   constexpr int kBand = 96;
+  Stage stage(base.options.request, "drawing lines");
   for (int band = 0; band < image.height; band += kBand) {
+    stage.check(static_cast<double>(band) / image.height);
     const int rows = std::min(kBand, image.height - band);
     const Raster raster{base.width, band * n, (band + rows) * n};
     const std::size_t first = static_cast<std::size_t>(raster.top) * base.width;

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "linespace/request.h"
 #include "linespace/scene.h"
 
 namespace sightline::viewers {
@@ -76,6 +77,8 @@ struct PictureOptions {
   int samples = 2;                 ///< per pixel side, 1 for none
   Colour background_top{0.965F, 0.972F, 0.984F}, background_bottom{0.845F, 0.868F, 0.9F};
   bool ambient_occlusion = true;  ///< darken crevices, from the depth buffer
+  /// Stop, budget (counted by each call) and progress; drawing throws Stopped.
+  Request request = {};
 };
 
 struct Image {

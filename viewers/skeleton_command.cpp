@@ -6,8 +6,8 @@
 #include <charconv>
 #include <iostream>
 
-#include "linespace/mesh_io.h"
 #include "linespace/perturb.h"
+#include "linespace/stage_internal.h"
 #include "viewers/command_line.h"
 #include "viewers/outputs.h"
 #include "viewers/selection.h"
@@ -23,7 +23,6 @@ struct SkeletonOptions : CommonOptions {
   std::vector<std::string> kinds{"EV", "EEE", "FF"};
   std::vector<std::string> between;
   std::string through;
-  double budget = std::numeric_limits<double>::infinity();
   std::size_t budget_bytes = std::numeric_limits<std::size_t>::max();
   std::vector<double> region;
   double perturb = 0;
@@ -104,7 +103,6 @@ SkeletonRequest request_of(const SkeletonOptions& options) {
   request.precision = options.precision;
   if (options.events == "polygon") request.events = EventMode::Polygon;
   request.threads = options.threads;
-  request.budget_seconds = options.budget;
   request.region = region_box(options.region);
   request.ev = std::ranges::find(options.kinds, "EV") != options.kinds.end();
   request.eee = std::ranges::find(options.kinds, "EEE") != options.kinds.end();
@@ -227,9 +225,7 @@ void print_events(const Json& events) {
 // Adds the answers to what is asked of the finished skeleton; false when the budget ended
 // first.
 bool answer_queries(const SkeletonOptions& options, const Scene& scene,
-                    const Skeleton& skeleton, Request request, Json& answer) {
-  Progress progress("far ends");
-  request.progress = progress.callback();
+                    const Skeleton& skeleton, const Request& request, Json& answer) {
   const EndIndex ends(scene, skeleton, request);
   if (!options.seen_from.empty()) {
     answer["seen_from"] = arcs_by_ends_json(scene, skeleton, ends,
@@ -241,7 +237,7 @@ bool answer_queries(const SkeletonOptions& options, const Scene& scene,
         between_ends(scene, ends, {options.between_ends[0], options.between_ends[1]}));
   }
   if (options.crossed.size() == 2) {
-    const ViewEvents events(scene, skeleton, ends);
+    const ViewEvents events(scene, skeleton, ends, request);
     const Point a = point_of(options.crossed[0]);
     const Point b = point_of(options.crossed[1]);
     answer["crossed"] = events_json(scene, skeleton, events.crossed(a, b));
@@ -269,25 +265,24 @@ struct Made {
   Json options;
 };
 
-Made made_skeleton(const SkeletonOptions& options, const Scene& scene,
-                   SkeletonRequest request) {
+Made made_skeleton(Session& session, const SkeletonOptions& options, const Scene& scene) {
   if (options.saved.empty()) {
-    Progress progress("skeleton");
-    request.progress = progress.callback();
+    SkeletonRequest request = request_of(options);
+    session.limit(request);
     return {build_selected(scene, request, selection_of(options)), options_json(options)};
   }
-  StoredSkeleton stored = read_skeleton_json(options.saved);
+  StoredSkeleton stored = session.read([&] { return read_skeleton_json(options.saved); });
   check_fits(stored, scene);
   stored.options["saved"] = options.saved;
   return {std::move(stored.skeleton), std::move(stored.options)};
 }
 
-Scene scene_of(const SkeletonOptions& options) {
-  Scene scene(read_mesh(options.scene));
+Scene scene_of(Session& session, const SkeletonOptions& options) {
+  Scene scene = read_scene(session, options.scene);
   if (options.perturb == 0) return scene;
   PolygonSoup moved = perturbed(scene, options.perturb, options.seed);
   moved.source = options.scene;  // the answer's options say how it was moved
-  return Scene(std::move(moved));
+  return Scene(std::move(moved), {}, session.with_grace());
 }
 
 /// Refuses groups that the scene does not have, before anything is computed.
@@ -313,69 +308,102 @@ Json answer_of(const SkeletonOptions& options, const Scene& scene, const Made& m
   return answer;
 }
 
-void write_vtk_files(const SkeletonOptions& options, const Scene& scene,
-                     const Skeleton& skeleton) {
-  std::vector<RuledStrip> strips;
-  if (options.extend) {
-    const SkeletonLines lines(scene);
-    for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
-      strips.push_back(ruled_strip(scene, lines, skeleton, static_cast<int>(i), 9));
+/// The file of -o: the skeleton, without what was asked of it.
+void save(Session& session, const Scene& scene, const Skeleton& skeleton,
+          const Json& answer, OutputFile& file, const std::string& name) {
+  session.write(name, [&](const Request& request) {
+    if (!write_skeleton_json(file.stream(), answer, scene, skeleton, nullptr, request)) {
+      throw Stopped("saving", 1);
     }
-  }
-  write_vtk(options.vtk, scene, {&skeleton, options.extend ? &strips : nullptr});
+    file.commit();
+  });
 }
 
-ExitStatus run(const SkeletonOptions& options) {
+void write_vtk_files(Session& session, const SkeletonOptions& options, const Scene& scene,
+                     const Skeleton& skeleton, std::optional<SkeletonLines>& lines) {
+  session.write("VTK files", [&](const Request& request) {
+    std::vector<RuledStrip> strips;
+    if (options.extend) {
+      lines.emplace(scene, request);
+      internal::Stage stage(request, "extending arcs");
+      for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
+        stage.check(static_cast<double>(i) / static_cast<double>(skeleton.arcs.size()));
+        strips.push_back(ruled_strip(scene, *lines, skeleton, static_cast<int>(i), 9));
+      }
+    }
+    write_vtk(options.vtk, scene, {&skeleton, options.extend ? &strips : nullptr},
+              request);
+  });
+}
+
+/// The answer with its list, cut where the time is over.  False when not even its
+/// beginning was written.
+bool write_list(Session& session, const Scene& scene, const Skeleton& skeleton,
+                const Json& answer, OutputFile& file,
+                std::optional<SkeletonLines>& lines) {
+  bool begun = false;
+  session.write("the list", [&](const Request& request) {
+    if (!lines) lines.emplace(scene, request);
+    begun = true;
+    const bool whole =
+        write_skeleton_json(file.stream(), answer, scene, skeleton, &*lines, request);
+    file.commit();
+    if (!whole) throw Stopped("the list", 1);
+  });
+  return begun;
+}
+
+ExitStatus run(Session& session, const SkeletonOptions& options) {
   // 1. The outputs, then the scene.
   check(options);
-  const Interruption interruption;
   Outputs outputs(options);
   OutputFile* const output =
       options.output.empty() ? nullptr : &outputs.add("-o", options.output);
   outputs.protect(options.saved);
   const Meter meter;
   const PrecisionScope precision(options.precision);
-  const Scene scene = scene_of(options);
+  const Scene scene = scene_of(session, options);
   check_groups(options, scene);
   const StageCounts loading = meter.predicates();
 
   // 2. The skeleton, and what is asked of it.
-  SkeletonRequest request = request_of(options);
-  request.budget_seconds -= meter.seconds();
-  request.stop = interruption.token();
-  const Made made = made_skeleton(options, scene, request);
+  const Made made = made_skeleton(session, options, scene);
   const Skeleton& skeleton = made.skeleton;
   bool complete = skeleton.complete;
   Json queries;
   if (options.asks()) {
-    request.budget_seconds = options.budget - meter.seconds();
-    complete = answer_queries(options, scene, skeleton, request, queries) && complete;
+    try {
+      complete = answer_queries(options, scene, skeleton, session.limited(), queries) &&
+                 complete;
+    } catch (const Stopped&) {  // what was asked first may be answered
+      complete = false;
+    }
   }
-  const Cost cost{meter.seconds(), loading + skeleton.predicates};
+  const Cost cost{session.seconds(), loading + skeleton.predicates};
 
   // 3. The files; the answer comes last.
+  const auto so_far = [&] { return complete && session.unwritten().empty(); };
+  std::optional<SkeletonLines> lines;
   if (output != nullptr) {
-    write_skeleton_json(
-        output->stream(),
-        answer_of(options, scene, made, skeleton.complete, cost, /*with_ids=*/true),
-        scene, skeleton, nullptr);
-    output->commit();
+    save(session, scene, skeleton,
+         answer_of(options, scene, made, skeleton.complete, cost, /*with_ids=*/true),
+         *output, options.output);
   }
-  if (!options.vtk.empty()) write_vtk_files(options, scene, skeleton);
-  Json answer = answer_of(options, scene, made, complete, cost, options.list);
+  if (!options.vtk.empty()) write_vtk_files(session, options, scene, skeleton, lines);
+  Json answer = answer_of(options, scene, made, so_far(), cost, options.list);
   if (!queries.is_null()) answer.update(queries);
-  if (options.list && outputs.json() != nullptr) {
-    const SkeletonLines lines(scene);
-    write_skeleton_json(outputs.json()->stream(), answer, scene, skeleton, &lines);
-    outputs.json()->commit();
-  } else {
+  const bool listed =
+      options.list && outputs.json() != nullptr &&
+      write_list(session, scene, skeleton, answer, *outputs.json(), lines);
+  if (!listed) {
+    answer["complete"] = so_far();
     outputs.write_answer(answer);
   }
   if (options.may_print()) {
     print_summary(scene, skeleton, answer);
     print_queries(answer);
   }
-  return complete ? kAnswered : kPartial;
+  return session.end(complete);
 }
 
 }  // namespace
@@ -456,7 +484,6 @@ Command add_skeleton_command(CLI::App& app) {
                    "shorter stretch; what is left out is reported (default 0: nothing)")
       ->type_name("L")
       ->check(number_from_zero());
-  add_budget_option(*command, options->budget);
   add_size_budget_option(*command, options->budget_bytes);
   command->add_flag(
       "--list", options->list,
@@ -503,7 +530,7 @@ Command add_skeleton_command(CLI::App& app) {
       ->type_name("X,Y,Z X,Y,Z")
       ->expected(2);
   add_common_options(*command, *options);
-  return [options] { return run(*options); };
+  return command_of(options, run);
 }
 
 }  // namespace sightline::viewers

@@ -7,10 +7,12 @@
 #include <optional>
 #include <string_view>
 
+#include "linespace/stage_internal.h"
 #include "viewers/checksum.h"
 #include "viewers/drawing.h"
 #include "viewers/far_ends.h"
 #include "viewers/input_file.h"
+#include "viewers/json_parse_internal.h"
 #include "viewers/json_text.h"
 
 namespace sightline::viewers {
@@ -328,48 +330,104 @@ std::string fingerprint(const Scene& scene) {
   return sum.text();
 }
 
-void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
-                         const Skeleton& skeleton, const SkeletonLines* lines) {
+namespace {
+
+/// The elements of the list, one at a time.
+class ListWriter {
+ public:
+  ListWriter(SummedText& out, const Scene& scene, const Skeleton& skeleton,
+             const SkeletonLines* lines)
+      : out_(out), scene_(scene), skeleton_(skeleton), lines_(lines) {}
+
+  void nodes(internal::Stage& stage) {
+    for (std::size_t i = 0; i < skeleton_.nodes.size(); ++i) {
+      tell(stage, i, skeleton_.nodes.size());
+      Json node = node_json(scene_, skeleton_, i);
+      if (lines_ != nullptr) {
+        add_line(node, *lines_, skeleton_, skeleton_.nodes[i]);
+        add_far_ends(node, scene_,
+                     far_ends(scene_, *lines_, skeleton_, skeleton_.nodes[i]));
+      }
+      add(node);
+    }
+  }
+  void arcs(internal::Stage& stage) {
+    const std::size_t ev = skeleton_.arcs.size();
+    const std::size_t count = ev + skeleton_.eee_arcs.size();
+    for (std::size_t i = 0; i < ev; ++i) {
+      tell(stage, i, count);
+      Json arc = arc_json(scene_, skeleton_, i);
+      if (lines_ != nullptr) add_line(arc, scene_, *lines_, skeleton_.arcs[i]);
+      add(arc);
+    }
+    for (std::size_t i = 0; i < skeleton_.eee_arcs.size(); ++i) {
+      tell(stage, ev + i, count);
+      Json arc = eee_arc_json(scene_, skeleton_, i);
+      if (lines_ != nullptr) add_line(arc, scene_, *lines_, skeleton_.eee_arcs[i]);
+      add(arc);
+    }
+  }
+  void begin_array() { separator_ = "\n   "; }
+
+ private:
+  void add(const Json& element) {
+    out_ << separator_ << json_text(element);
+    separator_ = ",\n   ";
+  }
+  // With lines an element may take milliseconds.
+  void tell(internal::Stage& stage, std::size_t i, std::size_t count) const {
+    if (lines_ != nullptr) {
+      stage.check(static_cast<double>(i) / static_cast<double>(count));
+    } else {
+      stage.at(i, count);
+    }
+  }
+
+  SummedText& out_;
+  const Scene& scene_;
+  const Skeleton& skeleton_;
+  const SkeletonLines* lines_;
+  const char* separator_ = "";
+};
+
+}  // namespace
+
+bool write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
+                         const Skeleton& skeleton, const SkeletonLines* lines,
+                         const Request& request) {
   Json first = head;
   first["scene"]["fingerprint"] = fingerprint(scene);
+  first.erase("complete");  // known at the end
   SummedText out(stream);
   std::string text = json_text(first, 1);
   text.erase(text.rfind('}'));  // leave the object open
   text.erase(text.find_last_not_of("\n ") + 1);
   out << text << ",\n \"list\": {\n  \"nodes\": [";
-  for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
-    Json node = node_json(scene, skeleton, i);
-    if (lines != nullptr) {
-      add_line(node, *lines, skeleton, skeleton.nodes[i]);
-      add_far_ends(node, scene, far_ends(scene, *lines, skeleton, skeleton.nodes[i]));
+  ListWriter list(out, scene, skeleton, lines);
+  bool whole = true;
+  const auto write = [&](const char* name, auto elements) {
+    list.begin_array();
+    try {
+      internal::Stage stage(request, name);
+      (list.*elements)(stage);
+    } catch (const Stopped&) {
+      whole = false;
     }
-    out << (i == 0 ? "\n   " : ",\n   ") << json_text(node);
-  }
-  out << "\n  ],\n  \"arcs\": [";
-  const char* separator = "\n   ";
-  const auto add_arc = [&](const Json& arc) {
-    out << separator << json_text(arc);
-    separator = ",\n   ";
   };
-  for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
-    Json arc = arc_json(scene, skeleton, i);
-    if (lines != nullptr) add_line(arc, scene, *lines, skeleton.arcs[i]);
-    add_arc(arc);
-  }
-  for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
-    Json arc = eee_arc_json(scene, skeleton, i);
-    if (lines != nullptr) add_line(arc, scene, *lines, skeleton.eee_arcs[i]);
-    add_arc(arc);
-  }
-  out << "\n  ]\n }";
+  write("listing nodes", &ListWriter::nodes);
+  out << "\n  ],\n  \"arcs\": [";
+  write("listing arcs", &ListWriter::arcs);
+  out << "\n  ]\n },\n \"complete\": "
+      << (whole && head.at("complete").get<bool>() ? "true" : "false");
   stream << kChecksumKey << out.sum() << kEnd;
+  return whole;
 }
 
 StoredSkeleton read_skeleton_json(const std::string& path) {
   const std::string text = read_whole(path);
   check_whole(path, text);
   try {
-    StoredSkeleton stored = skeleton_from(Json::parse(text));
+    StoredSkeleton stored = skeleton_from(parse_json<Json>(text));
     stored.file = path;
     return stored;
   } catch (const nlohmann::json::exception& error) {

@@ -15,14 +15,18 @@ namespace sightline::viewers {
 /// order.
 [[nodiscard]] std::string fingerprint(const Scene& scene);
 
-/// Writes `head`, with the scene's "fingerprint" under "scene", and two more keys:
+/// Writes `head`, with the scene's "fingerprint" under "scene", and three more keys:
 /// "list": {"nodes": [...], "arcs": [...]}, one element at a time, so that no copy of it
-/// is held (EV arcs, then EEE arcs), and "checksum", of all that is before it.  With
-/// lines, each element also has its "contacts" in order and its "free_segment" (null
-/// where SkeletonLines gives none, and then without contacts), an arc also the "line" at
-/// the middle of its range and its "pieces".
-void write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
-                         const Skeleton& skeleton, const SkeletonLines* lines);
+/// is held (EV arcs, then EEE arcs), then "complete", and "checksum", of all that is
+/// before it.  With lines, each element also has its "contacts" in order and its
+/// "free_segment" (null where SkeletonLines gives none, and then without contacts), an
+/// arc also the "line" at the middle of its range and its "pieces".
+///
+/// Of the request, stop, budget and progress count.  False where these ended the list
+/// before its end: what is written is JSON all the same, with "complete": false.
+bool write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
+                         const Skeleton& skeleton, const SkeletonLines* lines,
+                         const Request& request = {});
 
 /// A skeleton read back.
 struct StoredSkeleton {

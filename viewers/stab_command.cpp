@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <limits>
 
 #include "linespace/portals.h"
 #include "viewers/command_line.h"
@@ -16,7 +15,6 @@ namespace {
 
 struct StabOptions : CommonOptions {
   std::string method = "exact";
-  double budget = std::numeric_limits<double>::infinity();
   int rungs = 17;
   bool list = false;
 };
@@ -45,28 +43,6 @@ void check(const Question& question) {
     }
   }
 }
-
-/// The time of one command: its budget, counted from its start, and its interruption.
-class Terms {
- public:
-  explicit Terms(double budget) : budget_(budget) {}
-  /// What is left of the budget.
-  [[nodiscard]] Request request() const {
-    Request request;
-    request.budget_seconds = budget_ - meter_.seconds();
-    request.stop = interruption_.token();
-    return request;
-  }
-  [[nodiscard]] bool over() const {
-    return interruption_.token().stop_requested() || meter_.seconds() >= budget_;
-  }
-  [[nodiscard]] const Meter& meter() const { return meter_; }
-
- private:
-  Interruption interruption_;
-  Meter meter_;
-  double budget_;
-};
 
 std::string generator_text(const PortalGenerator& g) {
   const char letter = "VEP"[static_cast<int>(g.kind)];
@@ -166,7 +142,8 @@ std::vector<LineBlock::Polygon> drawn(const StabbingSwath& swath) {
 }
 
 void write_pictures(const StabOptions& options, const Question& question,
-                    const PortalSequence& sequence, const Request& request) {
+                    const PortalSequence& sequence, const Request& computing,
+                    const Request& writing) {
   std::vector<LineBlock> blocks;
   LineBlock portals{"portals", "portal", {}};
   LineBlock slits{"slits", "portal", {}};
@@ -189,13 +166,13 @@ void write_pictures(const StabOptions& options, const Question& question,
   }
   LineBlock ev{"swaths_EV", "EV", {}};
   LineBlock eee{"swaths_EEE", "EEE", {}};
-  for (const StabbingSwath& swath : sequence.swaths(options.rungs, request)) {
+  for (const StabbingSwath& swath : sequence.swaths(options.rungs, computing)) {
     std::vector<LineBlock::Polygon>& to = swath.has_vertex ? ev.polygons : eee.polygons;
     for (LineBlock::Polygon& polygon : drawn(swath)) to.push_back(std::move(polygon));
   }
   blocks.push_back(std::move(ev));
   blocks.push_back(std::move(eee));
-  write_vtk_lines(options.vtk, blocks);
+  write_vtk_lines(options.vtk, blocks, writing);
 }
 
 void print_summary(const StabOptions& options, const Json& answer) {
@@ -218,29 +195,38 @@ void print_summary(const StabOptions& options, const Json& answer) {
   std::cout << fmt::format("  {:.3f} s\n", answer["seconds"].get<double>());
 }
 
-Json head(const Question& question, const Terms& terms, bool complete) {
+/// So many portals are pushed.
+void tell_portals(Session& session, std::size_t done, const Question& question) {
+  session.tell("portals",
+               static_cast<double>(done) / static_cast<double>(question.portals.size()));
+}
+
+Json head(Session& session, const Question& question, const Meter& meter, bool complete) {
   std::size_t corners = 0;
   for (const auto& p : question.portals) corners += p.size();
   return answer_head("stab",
                      Json{{"portals", question.portals.size()}, {"corners", corners}},
-                     complete, {terms.meter().seconds(), terms.meter().predicates()});
+                     complete, {session.seconds(), meter.predicates()});
 }
 
-ExitStatus finish(const StabOptions& options, Outputs& outputs, const Json& answer) {
+ExitStatus finish(Session& session, const StabOptions& options, Outputs& outputs,
+                  const Json& answer) {
   outputs.write_answer(answer);
   if (options.may_print()) print_summary(options, answer);
-  return answer["complete"].get<bool>() ? kAnswered : kPartial;
+  return session.end(answer["complete"].get<bool>());
 }
 
-ExitStatus run_conservative(const StabOptions& options, Outputs& outputs,
-                            const Question& question, const Terms& terms) {
+ExitStatus run_conservative(Session& session, const StabOptions& options,
+                            Outputs& outputs, const Question& question,
+                            const Meter& meter) {
   SeparatingPlanesSequence sequence;
   for (const std::vector<Point>& portal : question.portals) {
-    if (terms.over()) break;
+    if (session.stopped()) break;
     sequence.push(portal);
+    tell_portals(session, sequence.size(), question);
   }
   const bool complete = sequence.size() == question.portals.size();
-  Json answer = head(question, terms, complete || !sequence.maybe_stabbable());
+  Json answer = head(session, question, meter, complete || !sequence.maybe_stabbable());
   answer["method"] = "conservative";
   answer["portals_done"] = sequence.size();
   // A longer sequence is not easier to stab.
@@ -248,57 +234,62 @@ ExitStatus run_conservative(const StabOptions& options, Outputs& outputs,
   if (complete || !sequence.maybe_stabbable()) {
     answer["stabbable"] = sequence.maybe_stabbable();
   }
-  return finish(options, outputs, answer);
+  return finish(session, options, outputs, answer);
 }
 
 /// Pushes portals until the time is over; what each push did.
-Json push_all(PortalSequence& sequence, const Question& question, const Terms& terms) {
-  Progress progress("portals");
-  const auto report = progress.callback();
+Json push_all(Session& session, PortalSequence& sequence, const Question& question) {
   Json pushes = Json::array();
   for (std::size_t i = 0; i < question.portals.size(); ++i) {
+    tell_portals(session, i, question);
     const Meter push_meter;
-    if (!sequence.push(question.portals[i], terms.request())) break;
+    if (!sequence.push(question.portals[i], session.limited())) break;
     pushes.push_back({{"portal", i},
                       {"stabbable", sequence.stabbable()},
                       {"extremal", sequence.extremal_lines().size()},
                       {"candidates", sequence.last_push().candidates},
                       {"milliseconds", 1e3 * push_meter.seconds()}});
-    if (report) {
-      report(static_cast<double>(i + 1) / static_cast<double>(question.portals.size()));
-    }
   }
   return pushes;
 }
 
-ExitStatus run(const StabOptions& options) {
-  const Terms terms(options.budget);
+ExitStatus run(Session& session, const StabOptions& options) {
   Outputs outputs(options);
-  const Question question = read_question(options.scene);
-  check(question);
+  const Meter meter;
+  const Question question = session.read([&] {
+    Question read = read_question(options.scene);
+    check(read);
+    return read;
+  });
   if (options.method == "conservative") {
-    return run_conservative(options, outputs, question, terms);
+    return run_conservative(session, options, outputs, question, meter);
   }
   PortalSequence sequence;
-  Json pushes = push_all(sequence, question, terms);
+  Json pushes = push_all(session, sequence, question);
   const bool all = sequence.size() == question.portals.size();
   Json found;
   found["method"] = "exact";
   found["portals_done"] = sequence.size();
   found["stabbable"] = nullptr;
   if (all || !sequence.stabbable()) found["stabbable"] = sequence.stabbable();
+  session.begin("a stabbing line");
   found["room"] =
-      room_name(all ? sequence.room(terms.request()) : StabbingRoom::Undecided);
+      room_name(all ? sequence.room(session.limited()) : StabbingRoom::Undecided);
   found["extremal"] = counts_json(sequence);
   for (const char* key : {"line", "line_exact", "line_inside"}) found[key] = nullptr;
-  if (all) add_line(found, sequence, terms.request());
+  if (all) add_line(found, sequence, session.limited());
   found["out_of_plane"] = sequence.out_of_plane();
   found["pushes"] = std::move(pushes);
   if (options.list) found["list"] = list_json(sequence);
-  if (!options.vtk.empty()) write_pictures(options, question, sequence, terms.request());
-  Json answer = head(question, terms, all && !terms.over());
+  const bool complete = all && !session.stopped();
+  if (!options.vtk.empty()) {
+    session.write("VTK files", [&](const Request& request) {
+      write_pictures(options, question, sequence, session.limited(), request);
+    });
+  }
+  Json answer = head(session, question, meter, complete && session.unwritten().empty());
   answer.update(found);
-  return finish(options, outputs, answer);
+  return finish(session, options, outputs, answer);
 }
 
 }  // namespace
@@ -327,9 +318,8 @@ Command add_stab_command(CLI::App& app) {
                    "lines drawn of each EV and EEE family in --vtk files")
       ->check(whole_number(2, 10000))
       ->capture_default_str();
-  add_budget_option(*command, options->budget);
   add_common_options(*command, *options);
-  return [options] { return run(*options); };
+  return command_of(options, run);
 }
 
 }  // namespace sightline::viewers

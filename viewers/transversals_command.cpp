@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "linespace/segment_transversals.h"
+#include "linespace/stage_internal.h"
 #include "viewers/command_line.h"
 #include "viewers/json_input.h"
 #include "viewers/outputs.h"
@@ -15,7 +16,6 @@ namespace sightline::viewers {
 namespace {
 
 struct TransversalsOptions : CommonOptions {
-  double budget = std::numeric_limits<double>::infinity();
   bool list = false;
 };
 
@@ -98,6 +98,7 @@ Json families_json(const SegmentTransversals& found) {
 Json list_json(const Question& question, const SegmentTransversals& found) {
   Json lines = Json::array();
   for (std::size_t i = 0; i < found.lines.size(); ++i) {
+    internal::hear_stop_now();
     const ExactLine line = found.exact(i);
     Json j = elements_json(question, found.contacts_of(i));
     j["line"] = points_json(drawn_piece(found, i, line));
@@ -106,6 +107,7 @@ Json list_json(const Question& question, const SegmentTransversals& found) {
   }
   Json families = Json::array();
   for (const TransversalFamily& f : found.families) {
+    internal::hear_stop_now();
     Json j{{"dimension", f.dimension}, {"kind", family_name(f.kind)}};
     j.update(elements_json(question, f.elements));
     const Point p = f.sample.nearest({0, 0, 0}).point;
@@ -116,7 +118,7 @@ Json list_json(const Question& question, const SegmentTransversals& found) {
 }
 
 void write_pictures(const std::string& folder, const Question& question,
-                    const SegmentTransversals& found) {
+                    const SegmentTransversals& found, const Request& request) {
   LineBlock segments{"segments", "segment", {}};
   for (std::size_t i = 0; i < question.segments.size(); ++i) {
     segments.pieces.push_back({question.segments[i].from, question.segments[i].to,
@@ -128,7 +130,9 @@ void write_pictures(const std::string& folder, const Question& question,
         {question.lines[i].from, question.lines[i].to, fmt::format("lines[{}]", i)});
   }
   LineBlock transversals{"transversals", "EEEE", {}};
+  const internal::Stage stage(request, "VTK files");
   for (std::size_t i = 0; i < found.lines.size(); ++i) {
+    internal::hear_stop_now();
     const auto [from, to] = drawn_piece(found, i, found.exact(i));
     transversals.pieces.push_back(
         {from, to, fmt::format("{}", fmt::join(found.contacts_of(i), " "))});
@@ -140,7 +144,7 @@ void write_pictures(const std::string& folder, const Question& question,
         {p, p + f.sample.direction().point,
          fmt::format("{}: {}", family_name(f.kind), fmt::join(f.elements, " "))});
   }
-  write_vtk_lines(folder, {segments, lines, transversals, families});
+  write_vtk_lines(folder, {segments, lines, transversals, families}, request);
 }
 
 void print_summary(const TransversalsOptions& options, const Question& question,
@@ -158,34 +162,38 @@ void print_summary(const TransversalsOptions& options, const Question& question,
   std::cout << fmt::format("  {:.3f} s\n", answer["seconds"].get<double>());
 }
 
-ExitStatus run(const TransversalsOptions& options) {
-  const Interruption interruption;
+ExitStatus run(Session& session, const TransversalsOptions& options) {
   Outputs outputs(options);
   const Meter meter;
-  const Question question = read_question(options.scene);
+  const Question question = session.read([&] { return read_question(options.scene); });
   TransversalRequest request;
   request.precision = options.precision;
   request.threads = options.threads;
-  request.budget_seconds = options.budget;
-  request.stop = interruption.token();
+  session.limit(request);
   request.only_count = !options.list && options.vtk.empty();
-  SegmentTransversals found;
-  {
-    Progress progress("transversals");
-    request.progress = progress.callback();
-    found = transversals_of_segments(question.segments, question.lines, request);
-  }
+  const SegmentTransversals found =
+      transversals_of_segments(question.segments, question.lines, request);
   Json answer = answer_head(
       "transversals",
       Json{{"segments", question.segments.size()}, {"lines", question.lines.size()}},
-      found.complete, {meter.seconds(), found.predicates});
+      found.complete, {session.seconds(), found.predicates});
   answer["lines"] = found.line_count;
   answer["families"] = families_json(found);
-  if (options.list) answer["list"] = list_json(question, found);
-  if (!options.vtk.empty()) write_pictures(options.vtk, question, found);
+  if (options.list) {
+    session.write("the list", [&](const Request& writing) {
+      const internal::Stage stage(writing, "the list");
+      answer["list"] = list_json(question, found);
+    });
+  }
+  if (!options.vtk.empty()) {
+    session.write("VTK files", [&](const Request& writing) {
+      write_pictures(options.vtk, question, found, writing);
+    });
+  }
+  answer["complete"] = found.complete && session.unwritten().empty();
   outputs.write_answer(answer);
   if (options.may_print()) print_summary(options, question, found, answer);
-  return found.complete ? kAnswered : kPartial;
+  return session.end(found.complete);
 }
 
 }  // namespace
@@ -202,9 +210,8 @@ Command add_transversals_command(CLI::App& app) {
   command->add_flag("--list", options->list,
                     "add every line, with what it meets, and every family to the JSON "
                     "answer");
-  add_budget_option(*command, options->budget);
   add_common_options(*command, *options);
-  return [options] { return run(*options); };
+  return command_of(options, run);
 }
 
 }  // namespace sightline::viewers

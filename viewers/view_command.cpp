@@ -10,7 +10,6 @@
 #include <iostream>
 #include <utility>
 
-#include "linespace/mesh_io.h"
 #include "linespace/perturb.h"
 #include "viewers/clip.h"
 #include "viewers/command_line.h"
@@ -33,6 +32,7 @@ struct ViewCommandOptions {
   std::vector<int> size{1400, 980};
   std::vector<double> box, eye, look_at;
   std::vector<std::string> kinds;  // all when empty
+  double budget = std::numeric_limits<double>::infinity();
 };
 
 /// The file that stands for a folder of results.
@@ -66,26 +66,32 @@ std::string scene_file_of(const StoredSkeleton& stored) {
                                  stored.file, stored.scene_file));
 }
 
-Shown read_shown(const ViewCommandOptions& options, const fs::path& file,
-                 Outputs& outputs) {
+Shown read_shown(Session& session, const ViewCommandOptions& options,
+                 const fs::path& file, Outputs& outputs) {
   const std::string extension = file.extension();
   if (extension == ".vtm" || extension == ".vtp") {
     VtkPicture picture = read_vtk(file);
     Shown shown{{}, {}, std::move(picture.veils), std::move(picture.strokes)};
-    if (!picture.soup.polygons.empty()) shown.scene.emplace(std::move(picture.soup));
+    if (!picture.soup.polygons.empty()) {
+      shown.scene.emplace(std::move(picture.soup), SceneOptions{}, session.with_grace());
+    }
     return shown;
   }
   if (extension == ".json") {
-    StoredSkeleton stored = read_skeleton_json(file.string());
+    StoredSkeleton stored =
+        session.read([&] { return read_skeleton_json(file.string()); });
     const std::string name =
         options.scene.empty() ? scene_file_of(stored) : options.scene;
     outputs.protect(name);
-    Scene scene(read_mesh(name));
-    if (stored.perturb > 0) scene = Scene(perturbed(scene, stored.perturb, stored.seed));
+    Scene scene = read_scene(session, name);
+    if (stored.perturb > 0) {
+      scene =
+          Scene(perturbed(scene, stored.perturb, stored.seed), {}, session.with_grace());
+    }
     check_fits(stored, scene);
     return {std::move(scene), std::move(stored.skeleton), {}, {}};
   }
-  return {Scene(read_mesh(file.string())), {}, {}, {}};
+  return {read_scene(session, file.string()), {}, {}, {}};
 }
 
 Point point_of(const std::vector<double>& numbers) {
@@ -210,10 +216,11 @@ void check_kinds(const std::vector<std::string>& kinds, const Shown& shown) {
   }
 }
 
-void write_picture(const ViewCommandOptions& options, const Shown& shown,
-                   OutputFile& file) {
+void write_picture(Session& session, const ViewCommandOptions& options,
+                   const Shown& shown, OutputFile& file) {
   check_kinds(options.kinds, shown);
-  const ViewOptions view_options = view_options_of(options, shown);
+  ViewOptions view_options = view_options_of(options, shown);
+  view_options.request = session.with_grace();
   SceneView view = shown.scene ? view_scene(*shown.scene, view_options)
                                : view_marks(shown.veils, shown.strokes, view_options);
   if (shown.skeleton) {
@@ -230,6 +237,7 @@ void write_picture(const ViewCommandOptions& options, const Shown& shown,
   PictureOptions picture;
   picture.width = options.size[0];
   picture.height = options.size[1];
+  picture.request = session.with_grace();
   file.stream() << encode_png(render(view.drawing, view.camera, picture));
   file.commit();
 }
@@ -250,7 +258,7 @@ void open_window(const fs::path& file, const Shown& shown) {
   fs::remove_all(folder);
 }
 
-ExitStatus run(const ViewCommandOptions& options) {
+ExitStatus run(Session& session, const ViewCommandOptions& options) {
   const fs::path file = file_of(options.what);
   if (options.png.empty() && !has_display()) {
     throw UsageError("view: no DISPLAY for a window; use --png FILE");
@@ -259,13 +267,13 @@ ExitStatus run(const ViewCommandOptions& options) {
   outputs.protect(file.string());
   OutputFile* const png =
       options.png.empty() ? nullptr : &outputs.add("--png", options.png);
-  const Shown shown = read_shown(options, file, outputs);
+  const Shown shown = read_shown(session, options, file, outputs);
   if (png != nullptr) {
-    write_picture(options, shown, *png);
+    write_picture(session, options, shown, *png);
   } else {
     open_window(file, shown);
   }
-  return kAnswered;
+  return session.end(true);
 }
 
 }  // namespace
@@ -344,7 +352,8 @@ Command add_view_command(CLI::App& app) {
       ->expected(3)
       ->check(finite_number())
       ->needs(eye);
-  return [options] { return run(*options); };
+  add_budget_option(*command, options->budget);
+  return command_of(options, run);
 }
 
 }  // namespace sightline::viewers

@@ -25,7 +25,6 @@ constexpr std::int64_t kEstimateRays = 10'000;
 struct VisibleOptions : CommonOptions {
   std::string a, b;
   std::string method = "exact";
-  double budget = std::numeric_limits<double>::infinity();
   std::int64_t rays = 0;  ///< 0: what the method takes unasked
   std::uint64_t seed = 1;
   bool check = false;
@@ -70,13 +69,11 @@ Json cost_json(const VisibilityCost& cost) {
           {"halvings", cost.halvings}, {"exact_cells", cost.exact_cells}};
 }
 
-VisibilityRequest request_of(const VisibleOptions& options, const Meter& meter,
-                             const Interruption& interruption) {
+VisibilityRequest request_of(Session& session, const VisibleOptions& options) {
   VisibilityRequest request;
+  session.limit(request);
   request.precision = options.precision;
   request.threads = options.threads;
-  request.budget_seconds = options.budget - meter.seconds();
-  request.stop = interruption.token();
   request.seed = options.seed;
   request.keep_cover = options.check;
   request.samples_only = options.method == "sampled";
@@ -112,55 +109,54 @@ std::vector<VisibilityQuestion> read_questions(const std::string& name) {
   return questions;
 }
 
-ExitStatus run_questions(const VisibleOptions& options) {
-  const Interruption interruption;
+ExitStatus run_questions(Session& session, const VisibleOptions& options) {
   Outputs outputs(options);
   const Meter meter;
-  const std::vector<VisibilityQuestion> questions = read_questions(options.scene);
+  const std::vector<VisibilityQuestion> questions =
+      session.read([&] { return read_questions(options.scene); });
   Json answers = Json::array();
   VisibilityCost cost;
   std::size_t counts[3] = {};
   bool seams_known = true;
   std::size_t occluders = 0;
-  {
-    Progress progress("visible");
-    const auto tell = progress.callback();
-    for (std::size_t i = 0; i < questions.size(); ++i) {
-      occluders += questions[i].occluders.size();
-      const Meter one;
-      SeamAnswer seams;
-      try {
-        seams = polygon_visibility(questions[i], options.seam,
-                                   request_of(options, meter, interruption));
-      } catch (const InvalidInput& error) {
-        throw InvalidInput(
-            fmt::format("{}: instances[{}].{}", options.scene, i, error.what()));
+  for (std::size_t i = 0; i < questions.size(); ++i) {
+    occluders += questions[i].occluders.size();
+    const Meter one;
+    SeamAnswer seams;  // undecided: stays so where no time is left
+    try {
+      if (!session.stopped()) {
+        seams =
+            polygon_visibility(questions[i], options.seam, request_of(session, options));
       }
-      const VisibilityAnswer& answer = seams.answer;
-      const double milliseconds = 1000 * one.seconds();
-      Json j{{"visible", verdict_json(answer.verdict)},
-             {"witness", witness_json(answer)},
-             {"milliseconds", milliseconds}};
-      add_opening(j, answer);
-      if (options.seam > 0) {
-        j["seams"] = Json::array();
-        if (seams.closed) {
-          j["seams"].push_back(seam_json(seams.closed->segment, seams.closed->occluders));
-        }
-        seams_known &= !seams.closed_unknown;
-      }
-      if (options.check && answer.cover) j["cover"] = checked_json(seams.grown, answer);
-      j["cost"] = cost_json(answer.cost);
-      answers.push_back(std::move(j));
-      cost += answer.cost;
-      ++counts[static_cast<int>(answer.verdict)];
-      if (tell) tell(static_cast<double>(i + 1) / static_cast<double>(questions.size()));
+    } catch (const InvalidInput& error) {
+      throw InvalidInput(
+          fmt::format("{}: instances[{}].{}", options.scene, i, error.what()));
     }
+    const VisibilityAnswer& answer = seams.answer;
+    const double milliseconds = 1000 * one.seconds();
+    Json j{{"visible", verdict_json(answer.verdict)},
+           {"witness", witness_json(answer)},
+           {"milliseconds", milliseconds}};
+    add_opening(j, answer);
+    if (options.seam > 0) {
+      j["seams"] = Json::array();
+      if (seams.closed) {
+        j["seams"].push_back(seam_json(seams.closed->segment, seams.closed->occluders));
+      }
+      seams_known &= !seams.closed_unknown;
+    }
+    if (options.check && answer.cover) j["cover"] = checked_json(seams.grown, answer);
+    j["cost"] = cost_json(answer.cost);
+    answers.push_back(std::move(j));
+    cost += answer.cost;
+    ++counts[static_cast<int>(answer.verdict)];
+    session.tell("questions",
+                 static_cast<double>(i + 1) / static_cast<double>(questions.size()));
   }
   const bool complete = counts[static_cast<int>(Verdict::Undecided)] == 0 && seams_known;
   Json answer = answer_head(
       "visible", Json{{"instances", questions.size()}, {"occluders", occluders}},
-      complete, {meter.seconds(), meter.predicates()});
+      complete, {session.seconds(), meter.predicates()});
   answer["answers"] = std::move(answers);
   answer["cost"] = cost_json(cost);
   outputs.write_answer(answer);
@@ -169,7 +165,7 @@ ExitStatus run_questions(const VisibleOptions& options) {
                              options.scene, counts[0], counts[1], counts[2],
                              answer["seconds"].get<double>());
   }
-  return complete ? kAnswered : kPartial;
+  return session.end(complete);
 }
 
 // ---- two groups of a scene
@@ -195,19 +191,18 @@ Json pair_json(const Scene& scene, const FaceVisibility& visibility,
   return j;
 }
 
-ExitStatus run_sampled(const VisibleOptions& options) {
-  const Interruption interruption;
+ExitStatus run_sampled(Session& session, const VisibleOptions& options) {
   Outputs outputs(options);
   const Meter meter;
-  const Scene scene(read_mesh(options.scene));
+  const Scene scene = read_scene(session, options.scene);
   const std::vector<int> as = scene.faces_named(options.a);
   const std::vector<int> bs = scene.faces_named(options.b);
-  const OcclusionIndex index(scene);
+  const OcclusionIndex index(scene, session.with_grace());
   const VisibilityEstimate estimate = estimate_visibility(
       index, as, bs, {options.rays > 0 ? options.rays : kEstimateRays, options.seed},
-      request_of(options, meter, interruption));
+      request_of(session, options));
   Json answer = answer_head("visible", scene, estimate.complete,
-                            {meter.seconds(), meter.predicates()});
+                            {session.seconds(), meter.predicates()});
   answer["method"] = "sampled";
   answer["groups"] = {options.a, options.b};
   answer["rays"] = estimate.samples;
@@ -224,7 +219,7 @@ ExitStatus run_sampled(const VisibleOptions& options) {
         estimate.fraction.value, estimate.interval[0], estimate.interval[1],
         answer["seconds"].get<double>());
   }
-  return estimate.complete ? kAnswered : kPartial;
+  return session.end(estimate.complete);
 }
 
 Json seams_json(const Scene& scene, const ClosedPairs& closed) {
@@ -243,7 +238,7 @@ Json seams_json(const Scene& scene, const ClosedPairs& closed) {
 }
 
 void write_witnesses(const VisibleOptions& options, const Scene& scene,
-                     const GroupAnswer& group) {
+                     const GroupAnswer& group, const Request& request) {
   LineBlock block{"witnesses", "VV", {}};
   const auto add = [&](const FacePairAnswer& pair) {
     if (!pair.answer.witness) return;
@@ -254,37 +249,31 @@ void write_witnesses(const VisibleOptions& options, const Scene& scene,
   };
   for (const FacePairAnswer& pair : group.pairs) add(pair);
   if (group.pairs.empty() && group.visible) add(*group.visible);
-  write_vtk(options.vtk, scene, {});
-  write_vtk_lines(options.vtk, {block});
+  write_vtk(options.vtk, scene, {}, request);
+  write_vtk_lines(options.vtk, {block}, request);
 }
 
-ExitStatus run_groups(const VisibleOptions& options) {
-  if (options.method == "sampled") return run_sampled(options);
-  const Interruption interruption;
+ExitStatus run_groups(Session& session, const VisibleOptions& options) {
+  if (options.method == "sampled") return run_sampled(session, options);
   Outputs outputs(options);
   const Meter meter;
-  const Scene scene(read_mesh(options.scene));
+  const Scene scene = read_scene(session, options.scene);
   const std::vector<int> as = scene.faces_named(options.a);
   const std::vector<int> bs = scene.faces_named(options.b);
-  const FaceVisibility visibility(scene, options.seam);
-  GroupAnswer group;
+  const FaceVisibility visibility(scene, session.with_grace(), options.seam);
+  const GroupAnswer group =
+      visibility.between(as, bs, options.all_pairs, request_of(session, options));
   ClosedPairs closed;
-  {
-    Progress progress("visible");
-    VisibilityRequest request = request_of(options, meter, interruption);
-    request.progress = progress.callback();
-    group = visibility.between(as, bs, options.all_pairs, request);
-    if (options.seam > 0) {
-      request.budget_seconds = options.budget - meter.seconds();
-      request.keep_cover = false;
-      closed = closed_pairs(scene, visibility, as, bs, group, options.all_pairs, request);
-    }
+  if (options.seam > 0) {
+    VisibilityRequest request = request_of(session, options);
+    request.keep_cover = false;
+    closed = closed_pairs(scene, visibility, as, bs, group, options.all_pairs, request);
   }
   const bool complete =
       closed.complete && (options.all_pairs ? group.pairs_undecided == 0
                                             : group.verdict != Verdict::Undecided);
   Json answer = answer_head("visible", scene, complete,
-                            {meter.seconds(), meter.predicates() + group.predicates});
+                            {session.seconds(), meter.predicates() + group.predicates});
   answer["method"] = "exact";
   answer["groups"] = {options.a, options.b};
   answer["visible"] = verdict_json(group.verdict);
@@ -303,7 +292,12 @@ ExitStatus run_groups(const VisibleOptions& options) {
       answer["pairs"].push_back(pair_json(scene, visibility, pair, options.check));
     }
   }
-  if (!options.vtk.empty()) write_witnesses(options, scene, group);
+  if (!options.vtk.empty()) {
+    session.write("VTK files", [&](const Request& request) {
+      write_witnesses(options, scene, group, request);
+    });
+  }
+  answer["complete"] = complete && session.unwritten().empty();
   outputs.write_answer(answer);
   if (options.may_print()) {
     const char* verdict = group.verdict == Verdict::Visible  ? "visible"
@@ -327,21 +321,21 @@ ExitStatus run_groups(const VisibleOptions& options) {
     std::cout << fmt::format("  {} pairs of faces, {:.3f} s\n", as.size() * bs.size(),
                              answer["seconds"].get<double>());
   }
-  return complete ? kAnswered : kPartial;
+  return session.end(complete);
 }
 
-ExitStatus run(const VisibleOptions& options) {
+ExitStatus run(Session& session, const VisibleOptions& options) {
   if (options.seam > 0 && options.method == "sampled") {
     throw UsageError("visible: --seam goes with --method exact");
   }
   if (options.a.empty() != options.b.empty()) {
     throw UsageError("visible: name two groups of the scene, A and B, or none");
   }
-  if (!options.a.empty()) return run_groups(options);
+  if (!options.a.empty()) return run_groups(session, options);
   if (options.all_pairs || !options.vtk.empty()) {
     throw UsageError("visible: --all-pairs and --vtk go with a scene and A B");
   }
-  return run_questions(options);
+  return run_questions(session, options);
 }
 
 }  // namespace
@@ -392,9 +386,8 @@ Command add_visible_command(CLI::App& app) {
                     "decide every pair of faces of A and B, and list them");
   command->add_flag("--check", options->check,
                     "verify the proof of each \"hidden\" by the independent checker");
-  add_budget_option(*command, options->budget);
   add_common_options(*command, *options);
-  return [options] { return run(*options); };
+  return command_of(options, run);
 }
 
 }  // namespace sightline::viewers

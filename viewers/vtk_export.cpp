@@ -1,6 +1,7 @@
 #include "viewers/vtk_export.h"
 
 #include <fmt/format.h>
+#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
@@ -25,8 +26,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <map>
 
+#include "linespace/stage_internal.h"
 #include "viewers/eee_surface.h"
 #include "viewers/json_text.h"
 #include "viewers/output_file.h"
@@ -34,6 +37,8 @@
 
 namespace sightline::viewers {
 namespace {
+
+using internal::Stage;
 
 /// Polygons, lines or strips with arrays of one tuple a cell, in the making.
 class Cells {
@@ -130,7 +135,7 @@ class Cells {
   std::map<std::string, vtkSmartPointer<vtkStringArray>> texts_;
 };
 
-vtkSmartPointer<vtkPolyData> scene_cells(const Scene& scene) {
+vtkSmartPointer<vtkPolyData> scene_cells(const Scene& scene, Stage& stage) {
   Cells cells;
   const PolygonSoup& soup = scene.soup();
   const std::vector<Colour> colours = object_colours(scene);
@@ -140,6 +145,7 @@ vtkSmartPointer<vtkPolyData> scene_cells(const Scene& scene) {
     face_of[scene.faces()[f].source] = f;
   }
   for (std::size_t i = 0; i < soup.polygons.size(); ++i) {
+    stage.at(i, soup.polygons.size());
     const int f = face_of[i];
     const int object = f < 0 ? -1 : scene.faces()[f].object;
     cells.add_polygon({soup.polygons[i].begin(), soup.polygons[i].end()},
@@ -158,7 +164,7 @@ vtkSmartPointer<vtkPolyData> scene_cells(const Scene& scene) {
   return data;
 }
 
-vtkSmartPointer<vtkPolyData> edge_cells(const Scene& scene) {
+vtkSmartPointer<vtkPolyData> edge_cells(const Scene& scene, Stage& stage) {
   static constexpr Colour kInks[] = {{0.17F, 0.18F, 0.22F},
                                      {0.55F, 0.57F, 0.62F},
                                      {0.8F, 0.8F, 0.8F},
@@ -166,6 +172,7 @@ vtkSmartPointer<vtkPolyData> edge_cells(const Scene& scene) {
                                      {0.84F, 0.15F, 0.24F}};
   Cells cells;
   for (std::size_t i = 0; i < scene.edges().size(); ++i) {
+    stage.at(i, scene.edges().size());
     const Edge& edge = scene.edges()[i];
     const int kind = static_cast<int>(edge.kind);
     cells.add_line(scene.point(edge.points[0]), scene.point(edge.points[1]), kInks[kind]);
@@ -187,8 +194,10 @@ void add_contacts(Cells& cells, const Skeleton& skeleton,
   cells.value("last_ends", {ends[1] ? 1 : 0});
 }
 
-void add_arc_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton) {
+void add_arc_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton,
+                    Stage& stage) {
   for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
+    stage.at(i, skeleton.arcs.size());
     const SkeletonArc& arc = skeleton.arcs[i];
     const Edge& edge = scene.edges()[arc.edge];
     const std::string kind = kind_name(arc);
@@ -209,16 +218,19 @@ void add_arc_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton
   }
 }
 
-void add_eee_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton) {
+void add_eee_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton,
+                    Stage& stage) {
   // Counted first: an array that grows takes up to three times its room.
   std::map<std::string, std::pair<vtkIdType, vtkIdType>> sizes;
   for (const EeeArc& arc : skeleton.eee_arcs) {
+    stage.at(0, skeleton.eee_arcs.size());
     auto& [strips, points] = sizes["arcs_" + kind_name(arc)];
     ++strips;
     points += 2 * static_cast<vtkIdType>(rungs_of(scene, arc).size());
   }
   for (const auto& [name, size] : sizes) blocks[name].reserve(size.first, size.second);
   for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
+    stage.at(i, skeleton.eee_arcs.size());
     const EeeArc& arc = skeleton.eee_arcs[i];
     const std::string kind = kind_name(arc);
     Cells& cells = blocks["arcs_" + kind];
@@ -266,8 +278,9 @@ std::string generator_text(const Skeleton& skeleton, const SkeletonNode& node) {
   return text;
 }
 
-void add_node_blocks(Blocks& blocks, const Skeleton& skeleton) {
+void add_node_blocks(Blocks& blocks, const Skeleton& skeleton, Stage& stage) {
   for (std::size_t i = 0; i < skeleton.nodes.size(); ++i) {
+    stage.at(i, skeleton.nodes.size());
     const SkeletonNode& node = skeleton.nodes[i];
     const std::string kind = kind_name(node);
     Cells& cells = blocks["nodes_" + kind];
@@ -305,14 +318,37 @@ void add_deviation(vtkPolyData* data, const Scene& scene) {
   data->GetFieldData()->AddArray(deviation);
 }
 
-void write_poly_data(const std::filesystem::path& path, vtkPolyData* data) {
+/// Lets VTK's writer ask whether to go on: exceptions may not pass through it.
+struct StopQuestion {
+  Stage* stage;
+  std::exception_ptr stopped;
+};
+
+void abort_when_stopped(vtkObject* writer, unsigned long, void* data, void*) {
+  auto& question = *static_cast<StopQuestion*>(data);
+  auto* algorithm = vtkAlgorithm::SafeDownCast(writer);
+  try {
+    question.stage->check(algorithm->GetProgress());
+  } catch (const Stopped&) {
+    question.stopped = std::current_exception();
+    algorithm->AbortExecuteOn();
+  }
+}
+
+void write_poly_data(const std::filesystem::path& path, vtkPolyData* data, Stage& stage) {
   OutputFile file(path);
   vtkNew<vtkXMLPolyDataWriter> writer;
   writer->SetFileName(file.temporary_path().c_str());
   writer->SetInputData(data);
   writer->SetEncodeAppendedData(0);
+  const vtkNew<vtkCallbackCommand> ask;
+  StopQuestion question{&stage, {}};
+  ask->SetClientData(&question);
+  ask->SetCallback(abort_when_stopped);
+  writer->AddObserver(vtkCommand::ProgressEvent, ask);
   const QuietVtk quiet;
   const int written = writer->Write();  // not 0 on a full disk
+  if (question.stopped) std::rethrow_exception(question.stopped);
   if (written == 0 || writer->GetErrorCode() != vtkErrorCode::NoError) {
     throw WriteError(
         fmt::format("{}: could not be written to its end: {}", path.string(),
@@ -466,11 +502,13 @@ void require_content(const VtkPicture& picture) {
 }  // namespace
 
 std::vector<std::string> write_vtk(const std::filesystem::path& folder,
-                                   const Scene& scene, const VtkContents& contents) {
+                                   const Scene& scene, const VtkContents& contents,
+                                   const Request& request) {
+  Stage stage(request, "VTK files");
   begin_folder(folder);
   std::vector<std::string> names{"scene", "edges"};
-  write_poly_data(folder / "scene.vtp", scene_cells(scene));
-  write_poly_data(folder / "edges.vtp", edge_cells(scene));
+  write_poly_data(folder / "scene.vtp", scene_cells(scene, stage), stage);
+  write_poly_data(folder / "edges.vtp", edge_cells(scene, stage), stage);
   // One group of blocks at a time is held in memory.
   const auto write = [&](const auto& fill) {
     Blocks blocks;
@@ -479,15 +517,15 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
       if (cells.empty()) continue;
       const vtkSmartPointer<vtkPolyData> data = cells.poly_data();
       if (name.starts_with("arcs_EEE")) add_deviation(data, scene);
-      write_poly_data(folder / (name + ".vtp"), data);
+      write_poly_data(folder / (name + ".vtp"), data, stage);
       names.push_back(name);
     }
   };
   if (contents.skeleton != nullptr) {
     const Skeleton& skeleton = *contents.skeleton;
-    write([&](Blocks& blocks) { add_arc_blocks(blocks, scene, skeleton); });
-    write([&](Blocks& blocks) { add_eee_blocks(blocks, scene, skeleton); });
-    write([&](Blocks& blocks) { add_node_blocks(blocks, skeleton); });
+    write([&](Blocks& blocks) { add_arc_blocks(blocks, scene, skeleton, stage); });
+    write([&](Blocks& blocks) { add_eee_blocks(blocks, scene, skeleton, stage); });
+    write([&](Blocks& blocks) { add_node_blocks(blocks, skeleton, stage); });
     if (contents.strips != nullptr) {
       write([&](Blocks& blocks) {
         add_strip_blocks(blocks, scene, skeleton, *contents.strips);
@@ -502,7 +540,9 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
 }
 
 std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
-                                         const std::vector<LineBlock>& blocks) {
+                                         const std::vector<LineBlock>& blocks,
+                                         const Request& request) {
+  Stage stage(request, "VTK files");
   begin_folder(folder);
   std::vector<std::string> names;
   std::vector<std::string> files;
@@ -524,7 +564,7 @@ std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
       cells.value("kind", block.kind);
     }
     if (cells.empty()) continue;
-    write_poly_data(folder / (block.name + ".vtp"), cells.poly_data());
+    write_poly_data(folder / (block.name + ".vtp"), cells.poly_data(), stage);
     names.push_back(block.name);
     files.push_back(block.name + ".vtp");
   }

@@ -40,9 +40,11 @@ struct VtkContents {
 ///               all of these as named blocks
 /// A cell of an EEE arc takes some 100 bytes and 60 a line of its strip, in memory and in
 /// the file alike.  `colour` is an RGB array and the active scalars.  Each file is
-/// written whole or not at all.  Throws OutputError.
+/// written whole or not at all.  Of the request, stop, budget and progress count: throws
+/// Stopped, and then the index is not written.  Throws OutputError.
 std::vector<std::string> write_vtk(const std::filesystem::path& folder,
-                                   const Scene& scene, const VtkContents& contents);
+                                   const Scene& scene, const VtkContents& contents,
+                                   const Request& request = {});
 
 /// Straight pieces, or polygons, of one kind, with what they are called and told of.
 struct LineBlock {
@@ -64,7 +66,8 @@ struct LineBlock {
 /// polygons with the cell arrays kind, id (position in the block), note, colour; and
 /// sightline.vtm over all. Returns the names of the files.  Throws OutputError.
 std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
-                                         const std::vector<LineBlock>& blocks);
+                                         const std::vector<LineBlock>& blocks,
+                                         const Request& request = {});
 
 /// What view can show of files written by write_vtk or write_vtk_lines.
 struct VtkPicture {

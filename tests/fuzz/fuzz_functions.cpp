@@ -3,23 +3,25 @@
 #include <array>
 
 #include "linespace/mesh_io_internal.h"
+#include "tests/support/unhurried.h"
 
 namespace sightline::fuzz {
 namespace {
 
-using Reader = PolygonSoup (*)(const std::string& path, std::string_view bytes);
+using Reader = PolygonSoup (*)(const std::string& path, std::string_view bytes,
+                               internal::Stage& stage);
 
 template <Reader read>
 void run_reader(const std::string& bytes) {
   try {
-    (void)read("fuzz", bytes);
+    (void)read("fuzz", bytes, test::Unhurried());
   } catch (const InvalidInput&) {
   }
 }
 
 void run_step(const std::string& bytes) {
   try {
-    internal::check_step("fuzz", bytes);
+    internal::check_step("fuzz", bytes, test::Unhurried());
   } catch (const InvalidInput&) {
   }
 }

@@ -15,6 +15,7 @@
 
 #include "linespace/mesh_io.h"
 #include "linespace/mesh_io_child_internal.h"
+#include "tests/support/unhurried.h"
 
 namespace sightline {
 namespace {
@@ -155,7 +156,8 @@ TEST(ReadMesh, MisspeltEntitiesOfIfcAreNamed) {
     const char letter = static_cast<char>('A' + random() % 26);
     if (letter == whole[at]) continue;
     damaged[at] = letter;
-    const std::string message = complaint([&] { internal::check_step("x", damaged); });
+    const std::string message =
+        complaint([&] { internal::check_step("x", damaged, test::Unhurried()); });
     EXPECT_NE(message.find("no entity of IFC 2x3"), std::string::npos) << damaged;
   }
 }

@@ -13,6 +13,7 @@
 #include "linespace/face_visibility.h"
 #include "linespace/mesh_io.h"
 #include "linespace/mesh_io_internal.h"
+#include "tests/support/unhurried.h"
 
 namespace sightline {
 namespace {
@@ -39,7 +40,7 @@ std::string complaint(const std::function<void()>& read) {
 }
 
 std::string complaint_about(const std::string& text) {
-  return complaint([&] { (void)internal::read_gltf("x.gltf", text); });
+  return complaint([&] { (void)internal::read_gltf("x.gltf", text, test::Unhurried()); });
 }
 
 std::string base64(const std::string& bytes) {
@@ -193,7 +194,8 @@ TEST_F(Gltf, IntegerPositionsAreTheirNumbers) {
       expected.push_back(p);
       if (file.stride > 0) file.positions.append(file.stride - bytes, '\x55');
     }
-    EXPECT_EQ(internal::read_gltf("x.gltf", file.text()).vertices, expected)
+    EXPECT_EQ(internal::read_gltf("x.gltf", file.text(), test::Unhurried()).vertices,
+              expected)
         << file.text();
   }
 }
@@ -220,7 +222,7 @@ TEST_F(Gltf, SparsePositionsReplaceDenseOnesOrZeros) {
       const std::string member = R"("bufferView":0,"componentType":5126)";
       text.replace(text.find(member), member.size(), R"("componentType":5126)");
     }
-    const PolygonSoup soup = internal::read_gltf("x.gltf", text);
+    const PolygonSoup soup = internal::read_gltf("x.gltf", text, test::Unhurried());
     for (int v = 0; v < 8; ++v) {
       const Point old = dense ? Point(v & 1, v >> 1 & 1, v >> 2 & 1) : Point(0, 0, 0);
       EXPECT_EQ(soup.vertices[static_cast<std::size_t>(v)],
@@ -268,7 +270,7 @@ TEST_F(Gltf, TrianglesStripsAndFans) {
       }
       if (mode == 6) expected.push_back({corners[0], b, c});
     }
-    PolygonSoup soup = internal::read_gltf("x.gltf", file.text());
+    PolygonSoup soup = internal::read_gltf("x.gltf", file.text(), test::Unhurried());
     std::vector<std::vector<int>> found = soup.polygons;
     for (auto& polygon : found) {
       for (int& v : polygon)
@@ -330,7 +332,8 @@ TEST_F(Gltf, RightAnglesAreExact) {
       for (const double x : {4, -8, 16, 1}) numbers.push_back(x);
       file.node = R"("matrix":)" + numbers_text(numbers);
     }
-    const PolygonSoup soup = internal::read_gltf("x.gltf", file.text());
+    const PolygonSoup soup =
+        internal::read_gltf("x.gltf", file.text(), test::Unhurried());
     const Eigen::Vector3d size =
         i % 2 == 0 || tilted ? Eigen::Vector3d(2, 3, 5) : Eigen::Vector3d(1, 1, 1);
     bool same = true;
@@ -367,7 +370,8 @@ TEST_F(Gltf, TransformationsOfNodesAreComposedInDouble) {
     }
     File file = cube();
     file.nodes = nodes;
-    const PolygonSoup soup = internal::read_gltf("x.gltf", file.text());
+    const PolygonSoup soup =
+        internal::read_gltf("x.gltf", file.text(), test::Unhurried());
     for (int v = 0; v < 8; ++v) {
       const Point expected = product * Point(v & 1, v >> 1 & 1, v >> 2 & 1);
       EXPECT_LT((soup.vertices[static_cast<std::size_t>(v)] - expected).norm(), 1e-13);
@@ -385,7 +389,8 @@ TEST_F(Gltf, ReadsTheSceneOfTheFile) {
   file.scenes = R"([{"nodes":[0]},{"nodes":[1,2]}])";
   const auto names = [&] {
     std::string all;
-    const PolygonSoup soup = internal::read_gltf("x.gltf", file.text());
+    const PolygonSoup soup =
+        internal::read_gltf("x.gltf", file.text(), test::Unhurried());
     for (const auto& group : soup.groups) all += group.name;
     return all + std::to_string(soup.defects.size());
   };
@@ -519,12 +524,13 @@ TEST_F(Gltf, DeepChainsOfNodes) {
     file.nodes += R"({"children":[)" + std::to_string(n + 1) + "]},";
   }
   file.nodes += R"({"mesh":0})";
-  EXPECT_EQ(internal::read_gltf("x.gltf", file.text()).polygons.size(), 12u);
+  EXPECT_EQ(internal::read_gltf("x.gltf", file.text(), test::Unhurried()).polygons.size(),
+            12u);
   // Nested extras are passed over.
   std::string text = cube().text();
   text.insert(1,
               "\"extras\":" + std::string(kDepth, '[') + std::string(kDepth, ']') + ",");
-  EXPECT_EQ(internal::read_gltf("x.gltf", text).polygons.size(), 12u);
+  EXPECT_EQ(internal::read_gltf("x.gltf", text, test::Unhurried()).polygons.size(), 12u);
 }
 
 TEST_F(Gltf, ManyUsesOfOneMeshAreRefusedBeforeTheyFillTheMemory) {
@@ -558,8 +564,9 @@ TEST_F(Gltf, SurvivesDamagedFiles) {
             i % 2 == 0 ? static_cast<char>(random()) : digits[random() % 21];
       }
       if (i % 5 == 0) damaged.resize(random() % damaged.size());
-      const std::string message =
-          complaint([&] { const Scene scene(internal::read_gltf("damaged", damaged)); });
+      const std::string message = complaint([&] {
+        const Scene scene(internal::read_gltf("damaged", damaged, test::Unhurried()));
+      });
       EXPECT_EQ(message.find_first_of("\r\n"), std::string::npos) << message;
       EXPECT_LT(message.size(), 400u);
       refused += message.empty() ? 0 : 1;

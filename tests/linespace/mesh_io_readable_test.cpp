@@ -14,6 +14,7 @@
 
 #include "linespace/mesh_io.h"
 #include "linespace/mesh_io_internal.h"
+#include "tests/support/unhurried.h"
 
 namespace sightline {
 namespace {
@@ -71,7 +72,7 @@ TEST(ReadableMesh, CubesAsTheyAreFound) {
 TEST(ReadableMesh, ByteOrderMarkBeforeAnyText) {
   const std::array<const char*, 4> files{"cube.obj", "cube.off", "cube_ascii.ply",
                                          "cube_ascii.stl"};
-  using Reader = PolygonSoup (*)(const std::string&, std::string_view);
+  using Reader = PolygonSoup (*)(const std::string&, std::string_view, internal::Stage&);
   const std::array<Reader, 4> readers{internal::read_obj, internal::read_off,
                                       internal::read_ply, internal::read_stl};
   Random random(1);
@@ -86,7 +87,7 @@ TEST(ReadableMesh, ByteOrderMarkBeforeAnyText) {
       if (c == ' ' && random() % 4 == 0) written += ' ';
       if (c != '\n') written += c;
     }
-    expect_unit_cube(readers[k]("marked", written));
+    expect_unit_cube(readers[k]("marked", written, test::Unhurried()));
   }
 }
 
@@ -113,7 +114,7 @@ TEST(ReadableMesh, HashInsideAnObjName) {
       text += word + begin + end + number + "\nf 1 2 3 # o no\n#o no\n";
     }
     SCOPED_TRACE(text);
-    const PolygonSoup soup = internal::read_obj("names", text);
+    const PolygonSoup soup = internal::read_obj("names", text, test::Unhurried());
     ASSERT_EQ(soup.groups.size(), 2u);
     EXPECT_EQ(soup.groups[0].name, begin + end + "1");
     EXPECT_EQ(soup.groups[1].name, begin + end + "2");
@@ -132,8 +133,8 @@ TEST(ReadableMesh, NamesKeepTheBytesOfTheFile) {
 TEST(ReadableMesh, ObjRefusesSurfacesThatItDoesNotRead) {
   for (const char* const line : {"surf 0 1 0 1 1 2 3", "call other.obj", "bzp 1 2 3 4"}) {
     const std::string text = std::string("v 0 0 0\n") + line + "\n";
-    const std::string message =
-        complaint([&] { (void)internal::read_obj("surfaces.obj", text); });
+    const std::string message = complaint(
+        [&] { (void)internal::read_obj("surfaces.obj", text, test::Unhurried()); });
     EXPECT_TRUE(message.starts_with("surfaces.obj:2: ")) << message;
     EXPECT_NE(message.find("not read here"), std::string::npos) << message;
   }
@@ -163,10 +164,11 @@ TEST(ReadableMesh, OffWithAnyHeader) {
     for (int n = 0; std::getline(lines, line); ++n)
       text += line + (n < 8 ? more : "") + "\n";
     SCOPED_TRACE(text);
-    expect_unit_cube(internal::read_off("headers", text));
+    expect_unit_cube(internal::read_off("headers", text, test::Unhurried()));
   }
   for (const char* const header : {"OFFSET", "OFFx8 6 12", "XOFF", "4OFF", "OF"}) {
-    EXPECT_THROW((void)internal::read_off("h", std::string(header) + "\n8 6 12\n"),
+    EXPECT_THROW((void)internal::read_off("h", std::string(header) + "\n8 6 12\n",
+                                          test::Unhurried()),
                  InvalidInput);
   }
 }
@@ -209,9 +211,10 @@ TEST(ReadableMesh, PlyColumnsThatAreNotUsedMayHoldAnything) {
     }
     SCOPED_TRACE(header + body);
     if (spoilt) {
-      EXPECT_THROW((void)internal::read_ply("columns", header + body), InvalidInput);
+      EXPECT_THROW((void)internal::read_ply("columns", header + body, test::Unhurried()),
+                   InvalidInput);
     } else {
-      expect_unit_cube(internal::read_ply("columns", header + body));
+      expect_unit_cube(internal::read_ply("columns", header + body, test::Unhurried()));
     }
   }
   for (const char* const no_number :
@@ -231,15 +234,18 @@ TEST(ReadableMesh, PlyRowsOverSeveralLines) {
                   ? any_of(std::array{"\n", "\n\n", " \n ", "\r\n"}, random)
                   : std::string(1, c);
     }
-    expect_unit_cube(internal::read_ply("rows", text));
+    expect_unit_cube(internal::read_ply("rows", text, test::Unhurried()));
     // A value too many or too few is still noticed.
     const std::size_t blank = text.find(' ', body);
     if (blank == std::string::npos) continue;
     std::string more = text, fewer = text;
     more.insert(blank, " 0");
     fewer.erase(body, blank - body);
-    EXPECT_THROW((void)internal::read_ply("more", more), InvalidInput) << more;
-    EXPECT_THROW((void)internal::read_ply("fewer", fewer), InvalidInput) << fewer;
+    EXPECT_THROW((void)internal::read_ply("more", more, test::Unhurried()), InvalidInput)
+        << more;
+    EXPECT_THROW((void)internal::read_ply("fewer", fewer, test::Unhurried()),
+                 InvalidInput)
+        << fewer;
   }
 }
 
@@ -270,16 +276,19 @@ TEST(ReadableMesh, PlyTriangleStrips) {
         "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
         "end_header\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 1 1\n" +
         std::to_string(length) + list + "\n";
-    EXPECT_EQ(internal::read_ply("strips", text).polygons, expected) << text;
+    EXPECT_EQ(internal::read_ply("strips", text, test::Unhurried()).polygons, expected)
+        << text;
   }
   const std::string beyond =
       "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
       "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
       "end_header\n0 0 0\n3 0 0 7\n";
-  EXPECT_TRUE(internal::read_ply("beyond", beyond).polygons.empty());  // no triangle
+  EXPECT_TRUE(internal::read_ply("beyond", beyond, test::Unhurried())
+                  .polygons.empty());  // no triangle
   std::string out_of_range = beyond;
   out_of_range.replace(out_of_range.find("3 0 0 7"), 7, "3 0 1 7");
-  EXPECT_THROW((void)internal::read_ply("beyond", out_of_range), InvalidInput);
+  EXPECT_THROW((void)internal::read_ply("beyond", out_of_range, test::Unhurried()),
+               InvalidInput);
 }
 
 TEST(ReadableMesh, SpareBytesAfterBinaryStlAreTold) {
@@ -304,11 +313,13 @@ TEST(ReadableMesh, SpareBytesAfterBinaryStlAreTold) {
     for (std::size_t n = random() % 5 * (random() % 60); n > 0; --n) {
       bytes += i % 3 == 0 ? static_cast<char>(random() % 256) : "solid facet\n"[n % 12];
     }
-    expect_unit_cube(internal::read_stl("spare", bytes),
+    expect_unit_cube(internal::read_stl("spare", bytes, test::Unhurried()),
                      bytes.size() > cube.size() ? 1 : 0);
     // Shorter than its count: told with both sizes.
-    const std::string message = complaint(
-        [&] { (void)internal::read_stl("short", bytes.substr(0, 84 + random() % 600)); });
+    const std::string message = complaint([&] {
+      (void)internal::read_stl("short", bytes.substr(0, 84 + random() % 600),
+                               test::Unhurried());
+    });
     EXPECT_NE(message.find("announces 12 triangles, that is 684 bytes"),
               std::string::npos)
         << message;
@@ -335,7 +346,7 @@ TEST(ReadableMesh, BlanksAnywhereInAsciiStl) {
     }
     if (i % 2 == 0) text.insert(0, any_of(std::array{"\n", "\n \n", "\r\n"}, random));
     SCOPED_TRACE(text);
-    expect_unit_cube(internal::read_stl("blanks", text));
+    expect_unit_cube(internal::read_stl("blanks", text, test::Unhurried()));
     // A broken text is told as text, with its line.
     std::string broken = text;
     std::size_t at = random() % broken.size();
@@ -345,7 +356,7 @@ TEST(ReadableMesh, BlanksAnywhereInAsciiStl) {
     }
     broken[at] = i % 2 == 0 ? '_' : '\x01';
     const std::string message =
-        complaint([&] { (void)internal::read_stl("broken", broken); });
+        complaint([&] { (void)internal::read_stl("broken", broken, test::Unhurried()); });
     if (at < text.rfind("endsolid") + 8) {
       EXPECT_TRUE(message.starts_with("broken:")) << message;
       EXPECT_EQ(message.find("triangles, that is"), std::string::npos) << message;
@@ -368,8 +379,8 @@ TEST(ReadableMesh, FacesWithoutVerticesAreRefused) {
         "property float z\nelement face " +
         count + "\nproperty list uchar int vertex_indices\nend_header\n" + rows;
     const std::string message = complaint([&] {
-      const Scene scene(i % 2 == 0 ? internal::read_off("none", off)
-                                   : internal::read_ply("none", ply));
+      const Scene scene(i % 2 == 0 ? internal::read_off("none", off, test::Unhurried())
+                                   : internal::read_ply("none", ply, test::Unhurried()));
     });
     EXPECT_EQ(message, "no vertices");
   }

@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "linespace/mesh_io_internal.h"
+#include "tests/support/unhurried.h"
 
 namespace sightline {
 namespace {
@@ -175,7 +176,7 @@ TEST(ReadMesh, NamesLineOrElement) {
 
 // Damaged copies of our own formats' files are read or refused, never more than that.
 TEST(ReadMesh, SurvivesDamagedFiles) {
-  using Reader = PolygonSoup (*)(const std::string&, std::string_view);
+  using Reader = PolygonSoup (*)(const std::string&, std::string_view, internal::Stage&);
   const std::vector<std::pair<std::string, Reader>> files{
       {"groups.obj", internal::read_obj},     {"tenth.off", internal::read_off},
       {"cube.off", internal::read_off},       {"cube_ascii.ply", internal::read_ply},
@@ -185,7 +186,7 @@ TEST(ReadMesh, SurvivesDamagedFiles) {
   int refused = 0, taken = 0;
   const auto attempt = [&](Reader read, const std::string& bytes) {
     try {
-      const Scene scene(read("damaged", bytes));
+      const Scene scene(read("damaged", bytes, test::Unhurried()));
       EXPECT_LE(scene.soup().vertices.size(), bytes.size());
       ++taken;
     } catch (const InvalidInput&) {
@@ -219,13 +220,16 @@ TEST(ReadMesh, TruncationOfCountedFormatsIsAlwaysNoticed) {
     const std::string whole = bytes_of(data("formats/") + name);
     // The last two bytes of the ASCII file are a digit and a line end.
     for (std::size_t size = 0; size + 2 < whole.size(); ++size) {
-      EXPECT_THROW((void)internal::read_ply("cut", whole.substr(0, size)), InvalidInput)
+      EXPECT_THROW(
+          (void)internal::read_ply("cut", whole.substr(0, size), test::Unhurried()),
+          InvalidInput)
           << size;
     }
   }
   const std::string stl = bytes_of(data("formats/cube_binary.stl"));
   for (std::size_t size = 0; size < stl.size(); ++size) {
-    EXPECT_THROW((void)internal::read_stl("cut", stl.substr(0, size)), InvalidInput);
+    EXPECT_THROW((void)internal::read_stl("cut", stl.substr(0, size), test::Unhurried()),
+                 InvalidInput);
   }
 }
 
@@ -236,7 +240,7 @@ TEST(ReadMesh, ReadsWindowsAndOldMacintoshLineEnds) {
          at += std::string(end).size()) {
       text.replace(at, 1, end);
     }
-    EXPECT_EQ(internal::read_obj("ends", text).polygons.size(), 1u);
+    EXPECT_EQ(internal::read_obj("ends", text, test::Unhurried()).polygons.size(), 1u);
   }
 }
 

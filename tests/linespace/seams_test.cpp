@@ -146,7 +146,7 @@ TEST(Seams, OfASceneAreListedWithWhatClosesThem) {
   const Scene scene(
       read_mesh(std::string(SIGHTLINE_TEST_DATA) + "/visibility/hairline_seam.obj"));
   const std::vector<int> as = scene.faces_named("A"), bs = scene.faces_named("B");
-  const FaceVisibility grown(scene, 1e-9);
+  const FaceVisibility grown(scene, {}, 1e-9);
   VisibilityRequest request;
   request.keep_cover = true;
   for (const bool all_pairs : {false, true}) {
@@ -183,7 +183,7 @@ TEST(Seams, NeighbourOfASideIsWhatClosesIt) {
   const Scene scene(soup);
   const std::vector<int> as = scene.faces_named("box0"), bs = scene.faces_named("box1");
   for (const double seam : {0.09, 0.11}) {
-    const FaceVisibility grown(scene, seam);
+    const FaceVisibility grown(scene, {}, seam);
     const GroupAnswer group = grown.between(as, bs, false);
     EXPECT_EQ(group.verdict, seam < 0.1 ? Verdict::Visible : Verdict::Hidden) << seam;
     const ClosedPairs closed = closed_pairs(scene, grown, as, bs, group, false);

@@ -307,7 +307,7 @@ TEST(VisibilityEstimate, StopsWithAPrefix) {
     double last = 0;
     Request request = on_threads(threads);
     request.stop = stop.get_token();
-    request.progress = [&](double done) {
+    request.progress = [&](std::string_view, double done) {
       EXPECT_GT(done, last);
       last = done;
       if (done > 0.3) stop.request_stop();

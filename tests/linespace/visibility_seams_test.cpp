@@ -218,7 +218,7 @@ TEST(BilinearCell, FindsWhatIsThereAndProvesTheRestEmpty) {
       for (Rational& x : other) x = -x + Rational(random.integer(-1, 1), 1'000'000'000);
       forms.push_back(other);
     }
-    const CellDecision decision = internal::decide_cell(forms, 10'000, {});
+    const CellDecision decision = internal::decide_cell(forms, 10'000);
     ASSERT_NE(decision.outcome, CellDecision::Outcome::TooDear) << seed;
     if (decision.segment) {
       ++found;

@@ -114,7 +114,7 @@ TEST(EdgeOnView, AgreesWithLinesToManyPoints) {
     const Scene scene(aligned ? testing::random_boxes(seed, 14, {.grid = 6})
                               : testing::random_polytopes(
                                     seed, 9, {.max_vertices = 7, .density = 0.4}));
-    const internal::Generators g(scene, 1);
+    const internal::Generators g(scene);
     testing::Random random(seed);
     const auto point = [&] {
       Point p;

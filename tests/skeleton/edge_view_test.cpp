@@ -51,7 +51,7 @@ struct Hidden {
 Hidden check_hidden(const PolygonSoup& soup, std::size_t step,
                     std::size_t other_step = 1) {
   const Scene scene(soup);
-  const Generators g(scene, 1);
+  const Generators g(scene);
   EdgeView view(g);
   Hidden count;
   std::vector<EdgeView::Part> parts;
@@ -203,7 +203,7 @@ TEST(EdgePieces, ChangeNoEvents) {
   for (const PolygonSoup& soup :
        {testing::city(2, 240), turned(turned(testing::grid_city(3, 200), 2), 0)}) {
     const Scene scene(soup);
-    const Generators g(scene, 1);
+    const Generators g(scene);
     const auto cut_edges = [](const Generators& generators, std::size_t ridges) {
       EdgeView view(generators);
       int cut = 0;
@@ -237,7 +237,7 @@ TEST(EdgePieces, ChangeNoEvents) {
       both.groups.push_back(group);
     }
     const Scene larger(both);
-    const Generators uncut(larger, 1);
+    const Generators uncut(larger);
     EXPECT_EQ(cut_edges(uncut, g.ridges().size()), 0);
     SkeletonRequest request;
     request.ev = false;
@@ -262,7 +262,7 @@ TEST(EdgePieces, ChangeNoEvents) {
 TEST(EdgeView, WhatTouchesAnOccluderAllAlongIsNotHidden) {
   const Scene scene(testing::boxes_soup(
       {{{0, 0, 0}, {1, 1, 2}}, {{2, 0, 0}, {3, 1, 2}}, {{4, 0, 0}, {5, 1, 2}}}));
-  const Generators g(scene, 1);
+  const Generators g(scene);
   EdgeView view(g);
   std::vector<EdgeView::Part> parts;
   std::vector<std::int32_t> faces;

@@ -46,7 +46,7 @@ struct View {
 class Viewer {
  public:
   explicit Viewer(const Scene& scene)
-      : scene_(scene), index_(scene), generators_(scene, 1) {}
+      : scene_(scene), index_(scene), generators_(scene) {}
 
   [[nodiscard]] const OcclusionIndex& index() const { return index_; }
 

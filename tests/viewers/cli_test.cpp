@@ -84,7 +84,8 @@ class Cli : public testing::Test {
     arguments.insert(arguments.end(), {"--json", "-"});
     const Run r = run(arguments);
     EXPECT_EQ(r.status, status) << r.err;
-    EXPECT_EQ(r.err, "");
+    // A budget in seconds that ended is told in one line.
+    EXPECT_LE(std::count(r.err.begin(), r.err.end(), '\n'), status == 3 ? 1 : 0);
     return json::parse(r.out);
   }
 
@@ -638,7 +639,7 @@ TEST_F(Cli, AnalyseFillsAFolder) {
 TEST_F(Cli, AnalyseSaysWhatIsMissing) {
   const fs::path folder = folder_ / "report";
   const json j = answer({"analyse", "-o", folder.string(), "--budget", "1e-6"}, 3);
-  EXPECT_EQ(j.at("missing").size(), 3U);  // EV, EEE and FF
+  EXPECT_GE(j.at("missing").size(), 3U);  // EV, EEE and FF, pictures if they take long
   EXPECT_NE(contents(folder / "index.html").find("not complete"), std::string::npos);
   // The built-in scene is the sample file.
   EXPECT_EQ(contents(folder / "room.obj"), contents(kRoom));

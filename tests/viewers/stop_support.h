@@ -1,0 +1,143 @@
+// Running the program until its budget ends or a signal is sent, and what must be true
+// then: it ends within a second, with the right status and one line, and every file with
+// a final name is whole.
+
+#pragma once
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace sightline::test {
+
+/// A fixture with an empty folder for what the program writes, removed with it.
+class Stopping : public ::testing::Test {
+ protected:
+  using Command = std::vector<std::string>;
+  using Clock = std::chrono::steady_clock;
+  /// Seconds that a loaded machine may add to the second that is promised.
+  static constexpr double kSlack = 1.5;
+
+  Stopping() {
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "sightline-stop-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~Stopping() override { std::filesystem::remove_all(folder_); }
+
+  struct Run {
+    int status;      // -1: ended by a signal
+    double seconds;  // since the signal was sent, or since the start
+    std::string err;
+  };
+
+  [[nodiscard]] pid_t start(Command command) const {
+    const std::string err = folder_ / "err";
+    command.insert(command.begin(), SIGHTLINE_PROGRAM);
+    std::vector<char*> argv;
+    for (std::string& word : command) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const pid_t pid = fork();
+    if (pid == 0) {
+      dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+      dup2(open(err.c_str(), O_CREAT | O_TRUNC | O_WRONLY, 0600), STDERR_FILENO);
+      unsetenv("DISPLAY");
+      execv(SIGHTLINE_PROGRAM, argv.data());
+      _exit(127);
+    }
+    return pid;
+  }
+
+  /// Until the end, or until that long after a signal that is sent after `after` seconds.
+  [[nodiscard]] Run run(const Command& command, int signal = 0, double after = 0) const {
+    for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
+      std::filesystem::remove_all(entry);
+    }
+    auto since = Clock::now();
+    const pid_t pid = start(command);
+    if (signal != 0) {
+      std::this_thread::sleep_for(std::chrono::duration<double>(after));
+      since = Clock::now();
+      kill(pid, signal);
+    }
+    int status = 0;
+    waitpid(pid, &status, 0);
+    const std::chrono::duration<double> used = Clock::now() - since;
+    std::ifstream err(folder_ / "err");
+    std::ostringstream text;
+    text << err.rdbuf();
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, used.count(), text.str()};
+  }
+
+  /// The status, the line and the files of a run that `reason` may have ended.
+  void expect_clean(const Run& r, const std::string& what, const char* reason) const {
+    SCOPED_TRACE(what + "\n" + r.err);
+    EXPECT_TRUE(r.status == 0 || r.status == 3) << r.status;
+    if (r.status == 3) {
+      EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1);
+      EXPECT_NE(r.err.find(reason), std::string::npos);
+      EXPECT_NE(r.err.find("written"), std::string::npos);
+    } else {
+      EXPECT_EQ(r.err, "");
+    }
+    expect_whole_files(r.status == 0);
+  }
+
+  /// A run that got as far as its question has written an answer, incomplete or not: it
+  /// did not have to be ended from outside.
+  void expect_answered(const Run& r, const std::string& what) const {
+    static const std::set<std::string> kBefore{
+        "reading", "vertices", "faces",          "objects", "sides",
+        "shells",  "edges",    "straight edges", "solids",  "looking for defects"};
+    const std::string mark = "in stage: ";
+    const std::size_t at = r.err.find(mark);
+    if (r.status == 3 && at != std::string::npos) {
+      const std::size_t from = at + mark.size();
+      const std::string stage = r.err.substr(from, r.err.find(',', from) - from);
+      if (kBefore.contains(stage)) return;
+    } else if (r.status == 3) {
+      return;  // before the first stage
+    }
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "out.json")) << what << '\n' << r.err;
+  }
+
+  [[nodiscard]] static std::string text_of(const Command& command) {
+    std::string text;
+    for (const std::string& word : command) text += word + " ";
+    return text;
+  }
+
+  std::filesystem::path folder_;
+
+ private:
+  void expect_whole_files(bool complete) const {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+      const std::string name = entry.path().filename();
+      EXPECT_NE(name[0], '.') << "left " << entry.path();
+      if (entry.path().extension() != ".json") continue;
+      std::ifstream file(entry.path());
+      const auto j = nlohmann::json::parse(file, nullptr, false);
+      EXPECT_FALSE(j.is_discarded()) << entry.path() << " is no JSON";
+      if (!j.is_object() || !j.contains("complete")) continue;
+      // A part that was finished may be whole in an answer that is not.
+      if (entry.path().filename() == "out.json") {
+        EXPECT_EQ(j.at("complete").get<bool>(), complete) << entry.path();
+      }
+    }
+  }
+};
+
+}  // namespace sightline::test
