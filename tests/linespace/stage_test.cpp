@@ -1,6 +1,7 @@
 // Reading a file and making a scene hear a budget and a stop, and say how far they are.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -29,7 +30,8 @@ PolygonSoup many_boxes() {
 
 // The same as a file with that extension, OBJ or OFF.
 std::string file_of(const PolygonSoup& soup, const std::string& extension) {
-  const std::string name = ::testing::TempDir() + "stage_test." + extension;
+  const std::string name =
+      ::testing::TempDir() + "stage_test_" + std::to_string(getpid()) + "." + extension;
   std::ofstream out(name);
   const bool off = extension == "off";
   if (off) out << "OFF\n" << soup.vertices.size() << ' ' << soup.polygons.size() << '\n';
