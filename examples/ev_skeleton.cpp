@@ -11,7 +11,7 @@
 
 int main(int argc, char** argv) {
   // A file becomes a scene once, validated; from then on it is immutable.
-  const std::string file = argc > 1 ? argv[1] : "scenes/room.obj";
+  const std::string file = argc > 1 ? argv[1] : "examples/scenes/room.obj";
   const sightline::Scene scene(sightline::read_mesh(file));
 
   // The whole exact answer, on all cores; the request may also name a region, a budget,

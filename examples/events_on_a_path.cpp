@@ -11,7 +11,7 @@
 #include "skeleton/view_events.h"
 
 int main(int argc, char** argv) {
-  const std::string file = argc > 1 ? argv[1] : "scenes/room.obj";
+  const std::string file = argc > 1 ? argv[1] : "examples/scenes/room.obj";
   const sightline::Scene scene(sightline::read_mesh(file));
   const sightline::Skeleton skeleton = sightline::build_skeleton(scene);
 

@@ -10,7 +10,7 @@
 #include "skeleton/skeleton.h"
 
 int main(int argc, char** argv) {
-  const std::string file = argc > 1 ? argv[1] : "scenes/cornell.obj";
+  const std::string file = argc > 1 ? argv[1] : "examples/scenes/cornell.obj";
   const sightline::Scene scene(sightline::read_mesh(file));
 
   // Both kinds of critical line sets, with the lines at their ends shared between them.

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 
+#include "linespace/input_file_internal.h"
 #include "linespace/mesh_io_internal.h"
 
 namespace sightline {
@@ -24,22 +24,9 @@ void refuse_line(const std::string& path, std::size_t line, const std::string& m
 }
 
 std::string load_file(const std::string& path, Stage& stage) {
-  std::error_code error;
-  if (std::filesystem::is_directory(path, error)) refuse(path, "is a folder");
-  std::ifstream in(path, std::ios::binary);
-  if (!in) refuse(path, "cannot be opened");
-  std::string bytes;
-  constexpr std::size_t kBlock = 1 << 20;
-  for (;;) {
-    stage.check(0);
-    const std::size_t size = bytes.size();
-    bytes.resize(size + kBlock);
-    in.read(bytes.data() + size, kBlock);
-    bytes.resize(size + static_cast<std::size_t>(in.gcount()));
-    if (in.gcount() == 0) break;
-  }
-  if (in.bad()) refuse(path, "cannot be read");
-  if (bytes.empty()) refuse(path, "the file is empty");
+  stage.check(0);
+  std::string bytes = read_whole(path);
+  if (bytes.empty()) refuse(told_name(path), "the file is empty");
   return bytes;
 }
 
@@ -209,36 +196,53 @@ constexpr Format kFormats[] = {
 #endif
     {"obj", read_obj},  {"off", read_off},   {"ply", read_ply}, {"stl", read_stl}};
 
-void check_extension(const std::string& path, const std::string& extension) {
+void check_format(const std::string& path, const std::string& format) {
   const auto known = readable_extensions();
-  if (std::find(known.begin(), known.end(), extension) != known.end()) return;
+  if (std::find(known.begin(), known.end(), format) != known.end()) return;
   std::string list;
   for (const std::string& name : known) list += " ." + name;
-  refuse(path, (extension.empty() ? std::string("no extension tells its format")
-                                  : "no mesh format is known by the extension " +
-                                        internal::quoted(extension)) +
-                   "; read are" + list);
+  refuse(told_name(path),
+         (format.empty() ? std::string("no extension tells its format")
+                         : "no mesh format is known by the extension " + quoted(format)) +
+             "; read are" + list);
+}
+
+// Refuses what is not there, and folders, whatever their names end in.
+void check_there(const std::string& path) {
+  if (path == kStandardInput) return;
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) refuse(path, "no such file");
+  if (std::filesystem::is_directory(status)) refuse(path, "is a folder");
 }
 
 }  // namespace
 }  // namespace internal
 
-PolygonSoup read_mesh(const std::string& path, const Request& request) {
-  internal::Stage stage(request, "reading");
-  const std::string extension = internal::extension_of(path);
-  const auto* const format =
-      std::find_if(std::begin(internal::kFormats), std::end(internal::kFormats),
-                   [&](const auto& f) { return extension == f.extension; });
+PolygonSoup read_mesh(const std::string& path, const Request& request,
+                      const std::string& given_format) {
+  using namespace internal;
+  Stage stage(request, "reading");
+  const std::string own = extension_of(path);
+  const std::string format =
+      given_format.empty() ? own : extension_of("x." + given_format);
+  check_there(path);
+  check_format(path, format);
+  const std::string bytes = load_file(path, stage);
+  const std::string name = told_name(path);
+  const auto* const reader =
+      std::find_if(std::begin(kFormats), std::end(kFormats),
+                   [&](const auto& f) { return format == f.extension; });
   PolygonSoup soup;
-  if (format != std::end(internal::kFormats)) {
-    const std::string bytes = internal::load_file(path, stage);
-    soup = format->read(path, bytes, stage);
+  if (reader != std::end(kFormats)) {
+    soup = reader->read(name, bytes, stage);
   } else {
-    internal::check_extension(path, extension);
-    soup = internal::read_with_assimp(path, extension, stage);
+    // By its name, so that what stands beside it is found; else from memory.
+    const bool by_name = format == own && path != kStandardInput;
+    soup = read_with_assimp({name, bytes, format, by_name}, stage);
   }
-  soup.source = path;
-  if (soup.polygons.empty()) internal::refuse(path, "no faces");
+  soup.source = name;
+  if (soup.polygons.empty()) refuse(name, "no faces");
   return soup;
 }
 

@@ -32,7 +32,8 @@
 
 namespace sightline {
 
-/// The polygons of a mesh file, its format told by the extension.  Names of groups come
+/// The polygons of a mesh file, its format told by the extension, or by `format`, an
+/// extension too; "-" is standard input.  Names of groups come
 /// from `o` and `g` lines of OBJ, `solid` lines of ASCII STL and nodes of scene formats;
 /// defects tell what the file has and the polygons lack ("spare bytes" after binary STL,
 /// meshes "left out" of the scene that is read); indices are not checked against the
@@ -40,7 +41,8 @@ namespace sightline {
 /// InvalidInput with one line that names file and line, byte or element; nothing is
 /// allocated beyond a small multiple of the file's size.  Of the request, budget, stop
 /// and progress count; throws Stopped.
-[[nodiscard]] PolygonSoup read_mesh(const std::string& path, const Request& request = {});
+[[nodiscard]] PolygonSoup read_mesh(const std::string& path, const Request& request = {},
+                                    const std::string& format = {});
 
 /// Extensions that read_mesh knows in this build, in lower case, without dot, sorted.
 [[nodiscard]] std::vector<std::string> readable_extensions();

@@ -133,8 +133,11 @@ class Complaints : public Assimp::LogStream {
   std::vector<Defect> defects_;
 };
 
+bool is_ifc(const AssimpFile& file) { return file.format == "ifc"; }
+
 // To be called in a process of its own.
-PolygonSoup read_scene(const std::string& path, bool is_ifc) {
+PolygonSoup read_scene(const AssimpFile& file) {
+  const std::string& path = file.path;
   Assimp::DefaultLogger::create("", Assimp::Logger::NORMAL, 0, nullptr);
   auto* const complaints = new Complaints;  // the logger owns it
   Assimp::DefaultLogger::get()->attachStream(complaints,
@@ -144,9 +147,12 @@ PolygonSoup read_scene(const std::string& path, bool is_ifc) {
     // Otherwise a file without faces gets pyramids where its bones might be.
     importer.SetPropertyInteger(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, 1);
     // Polygons stay whole where the format has them: Scene cuts them exactly.
-    const aiScene* const scene = importer.ReadFile(path, 0);
+    const aiScene* const scene =
+        file.by_name ? importer.ReadFile(path, 0)
+                     : importer.ReadFileFromMemory(file.bytes.data(), file.bytes.size(),
+                                                   0, file.format.c_str());
     if (scene == nullptr) refuse(path, one_line(importer.GetErrorString()));
-    PolygonSoup soup = SceneWalker(path, *scene).walk(is_ifc);
+    PolygonSoup soup = SceneWalker(path, *scene).walk(is_ifc(file));
     soup.defects = complaints->defects();
     return soup;
   } catch (const InvalidInput&) {
@@ -160,14 +166,11 @@ PolygonSoup read_scene(const std::string& path, bool is_ifc) {
 
 }  // namespace
 
-PolygonSoup read_with_assimp(const std::string& path, const std::string& extension,
-                             Stage& stage) {
-  const std::string bytes = load_file(path, stage);
-  const bool is_ifc = extension == "ifc";
-  if (is_ifc) check_step(path, bytes, stage);
+PolygonSoup read_with_assimp(const AssimpFile& file, Stage& stage) {
+  if (is_ifc(file)) check_step(file.path, file.bytes, stage);
   return read_in_child(
-      path, bytes.size(), [&] { stage.check(0); },
-      [&] { return read_scene(path, is_ifc); });
+      file.path, file.bytes.size(), [&] { stage.check(0); },
+      [&] { return read_scene(file); });
 }
 
 std::vector<std::string> assimp_extensions() {
@@ -176,10 +179,9 @@ std::vector<std::string> assimp_extensions() {
 
 #else
 
-PolygonSoup read_with_assimp(const std::string& path, const std::string& extension,
-                             Stage&) {
-  refuse(path, "the format " + quoted(extension) +
-                   " needs assimp, which this build is without");
+PolygonSoup read_with_assimp(const AssimpFile& file, Stage&) {
+  refuse(file.path, "the format " + quoted(file.format) +
+                        " needs assimp, which this build is without");
 }
 
 std::vector<std::string> assimp_extensions() { return {}; }

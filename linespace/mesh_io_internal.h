@@ -113,9 +113,14 @@ void append_strip_triangle(std::vector<std::vector<int>>& polygons,
 /// records of a name that IFC 2x3 does not have: assimp would leave those out.
 void check_step(const std::string& path, std::string_view text, Stage& stage);
 
-/// Through assimp, for an extension of assimp_extensions.
-[[nodiscard]] PolygonSoup read_with_assimp(const std::string& path,
-                                           const std::string& extension, Stage& stage);
+/// A file that assimp is to read.
+struct AssimpFile {
+  const std::string& path;  ///< or its name in messages
+  const std::string& bytes;
+  const std::string& format;  ///< of assimp_extensions
+  bool by_name;               ///< assimp opens it itself, and what it refers to
+};
+[[nodiscard]] PolygonSoup read_with_assimp(const AssimpFile& file, Stage& stage);
 [[nodiscard]] std::vector<std::string> assimp_extensions();
 
 }  // namespace sightline::internal

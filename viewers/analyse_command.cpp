@@ -17,6 +17,8 @@
 #include "viewers/outputs.h"
 #include "viewers/page.h"
 #include "viewers/palette.h"
+#include "viewers/report_folder.h"
+#include "viewers/skeleton_file.h"
 #include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
@@ -392,13 +394,29 @@ void print_summary(const Json& report, const fs::path& folder) {
                            (folder / "index.html").string());
 }
 
-Scene load(Session& session, const AnalyseOptions& options, const fs::path& folder) {
-  if (!options.scene.empty()) return read_scene(session, options.scene);
-  const fs::path file = folder / kBuiltinSceneName;
+Scene load(Session& session, const AnalyseOptions& options, ReportFolder& folder) {
+  if (!options.scene.empty()) return read_scene(session, options.scene, options.format);
+  const fs::path file = folder.announce(kBuiltinSceneName);
   write_whole(file, builtin_scene());
   PolygonSoup soup = read_mesh(file.string());
   soup.source = std::string(kBuiltinSceneName) + " (built in)";
   return Scene(std::move(soup));
+}
+
+/// skeleton.json, for `view` and `skeleton --saved`.
+void save_skeleton(Session& session, const AnalyseOptions& options, const Scene& scene,
+                   const Skeleton& skeleton, ReportFolder& folder) {
+  Json asked{{"events", "solid"}, {"kinds", Json::array({"EV", "EEE"})}};
+  if (!options.region.empty()) asked["region"] = options.region;
+  Json answer =
+      skeleton_answer(scene, skeleton, asked, options.precision, skeleton.complete,
+                      {session.seconds(), skeleton.predicates}, /*with_ids=*/true);
+  // The built-in scene lies beside it.
+  if (options.scene.empty()) answer["scene"]["file"] = kBuiltinSceneName;
+  session.write("skeleton.json", [&](const Request& request) {
+    OutputFile file(folder.announce("skeleton.json"));
+    save_skeleton_json(file, answer, scene, skeleton, request);
+  });
 }
 
 ExitStatus run(Session& session, const AnalyseOptions& options) {
@@ -409,12 +427,10 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
     }
   }
   Outputs outputs(options);
-  const OutputFolder report_folder(options.folder);
+  ReportFolder folder(options.folder);
   const Meter meter;
   StageLog log;
   const PrecisionScope precision(options.precision);
-  const fs::path folder(options.folder);
-
   // 1. The scene and what is wrong with it.
   SkeletonRequest request;
   request.ff = true;
@@ -434,17 +450,20 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
   const std::size_t analysis_memory = peak_memory_bytes();
 
   // 3. Files.
+  folder.clear();
+  save_skeleton(session, options, scene, skeleton, folder);
+  log.done("saved skeleton");
   std::optional<SkeletonLines> lines;
   const Highlights highlights = find_highlights(scene, skeleton);
-  std::vector<std::string> files;
   session.write("VTK files", [&](const Request& writing) {
     lines.emplace(scene, writing);
     const std::vector<RuledStrip> strips =
         strips_of(scene, *lines, skeleton, highlights.vertex);
-    const fs::path vtk = options.vtk.empty() ? folder / "vtk" : fs::path(options.vtk);
-    for (const std::string& name : write_vtk(vtk, scene, {&skeleton, &strips}, writing)) {
-      if (options.vtk.empty()) files.push_back("vtk/" + name);
-    }
+    const bool here = options.vtk.empty();
+    const fs::path vtk = here ? folder.path() / "vtk" : fs::path(options.vtk);
+    std::vector<std::string> names = write_vtk(vtk, scene, {&skeleton, &strips}, writing);
+    for (std::string& name : names) name.insert(0, "vtk/");
+    if (here) folder.add(names);
   });
   log.done("VTK files");
   std::vector<PagePicture> pictures;
@@ -453,8 +472,7 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
     auto drawn = draw_pictures(scene, *lines, skeleton, highlights, request.region,
                                options.up.empty() ? -1 : options.up[0] - 'x', writing);
     for (const PagePicture& picture : drawn) {
-      write_whole(folder / picture.file, picture.png);
-      files.push_back(picture.file);
+      write_whole(folder.announce(picture.file), picture.png);
     }
     pictures = std::move(drawn);
   });
@@ -482,13 +500,13 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
                         {"predicates", stage_counts(skeleton.predicates)}};
   report["stages"] = log.stages();
   report["missing"] = missing_json(skeleton, session);
-  files.insert(files.begin(), "report.json");
-  if (options.scene.empty()) files.emplace_back(kBuiltinSceneName);
-  report["files"] = files;
-  write_whole(folder / "report.json", json_text(report, 1) + "\n");
-  write_whole(folder / "index.html", report_page(report, pictures));
+  const fs::path report_file = folder.announce("report.json");
+  const fs::path page = folder.announce("index.html");
+  report["files"] = folder.files();
+  write_whole(report_file, json_text(report, 1) + "\n");
+  write_whole(page, report_page(report, pictures));
   outputs.write_answer(report);
-  if (options.may_print()) print_summary(report, folder);
+  if (options.may_print()) print_summary(report, folder.path());
   return session.end(complete);
 }
 
@@ -505,8 +523,9 @@ Command add_analyse_command(CLI::App& app) {
       " (default: a built-in room, which is also written into DIR)");
   command
       ->add_option("-o,--output", options->folder,
-                   "folder for index.html, report.json, pictures and VTK files "
-                   "(default sightline-report)")
+                   "folder for index.html, report.json, skeleton.json, pictures and VTK "
+                   "files; of what it holds, only what an earlier run wrote is removed, "
+                   "which its files.txt lists (default sightline-report)")
       ->type_name("DIR");
   command
       ->add_option("--only", options->only,

@@ -352,6 +352,17 @@ Json simplified_json(const Scene& scene, const Simplified& simplified, bool with
   return j;
 }
 
+Json skeleton_answer(const Scene& scene, const Skeleton& skeleton, const Json& options,
+                     Precision precision, bool complete, const Cost& cost,
+                     bool with_ids) {
+  Json answer = answer_head("skeleton", scene, complete, cost);
+  answer["options"] = options;
+  answer["options"]["precision"] = precision == Precision::Exact ? "exact" : "double";
+  answer.update(skeleton_json(skeleton));
+  answer["simplified"] = simplified_json(scene, skeleton.simplified, with_ids);
+  return answer;
+}
+
 StageCounts operator+(const StageCounts& a, const StageCounts& b) {
   return {a.by_double + b.by_double, a.by_interval + b.by_interval,
           a.by_exact + b.by_exact};

@@ -77,6 +77,12 @@ struct Cost {
 [[nodiscard]] Json simplified_json(const Scene& scene, const Simplified& simplified,
                                    bool with_ids);
 
+/// The whole answer of `sightline skeleton`, what is asked of the skeleton left out:
+/// `options` says how it was built.
+[[nodiscard]] Json skeleton_answer(const Scene& scene, const Skeleton& skeleton,
+                                   const Json& options, Precision precision,
+                                   bool complete, const Cost& cost, bool with_ids);
+
 StageCounts operator+(const StageCounts& a, const StageCounts& b);
 StageCounts operator-(const StageCounts& a, const StageCounts& b);
 

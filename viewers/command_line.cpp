@@ -12,8 +12,17 @@ void add_scene_argument(CLI::App& app, CommonOptions& options, bool required) {
   CLI::Option* scene = app.add_option(
       "SCENE", options.scene,
       "mesh file, by extension: .obj .ply .stl .off .glb .gltf; where assimp reads "
-      "them .ifc .3ds .ac .dae .dxf .fbx .lwo .x");
+      "them .ifc .3ds .ac .dae .dxf .fbx .lwo .x; '-' is standard input, with --format");
   scene->required(required);
+  add_format_option(app, options);
+}
+
+void add_format_option(CLI::App& app, CommonOptions& options) {
+  app.add_option("--format", options.format,
+                 "read SCENE in this format, whatever its name ends in: obj, ply, ... "
+                 "(default: by extension)")
+      ->type_name("EXTENSION")
+      ->check(one_of(readable_extensions()));
 }
 
 void add_file_argument(CLI::App& app, CommonOptions& options, const std::string& help) {
@@ -94,8 +103,11 @@ std::optional<std::array<Point, 2>> region_box(const std::vector<double>& region
   return std::array<Point, 2>{low, high};
 }
 
-Scene read_scene(Session& session, const std::string& file) {
-  PolygonSoup soup = read_mesh(file, session.with_grace());
+Scene read_scene(Session& session, const std::string& file, const std::string& format) {
+  if (file == "-" && format.empty()) {
+    throw UsageError("'-' is standard input: name its format, as in --format obj");
+  }
+  PolygonSoup soup = read_mesh(file, session.with_grace(), format);
   return Scene(std::move(soup), {}, session.with_grace());
 }
 

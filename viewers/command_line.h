@@ -32,9 +32,10 @@ class UsageError : public std::runtime_error {
 using Command = std::function<ExitStatus(Session&)>;
 
 struct CommonOptions {
-  std::string scene;  ///< or the question's FILE
-  std::string json;   ///< file name, "-" for standard output, empty for none
-  std::string vtk;    ///< folder, empty for none
+  std::string scene;   ///< or the question's FILE; "-" for standard input
+  std::string format;  ///< of the scene, an extension; empty: its own
+  std::string json;    ///< file name, "-" for standard output, empty for none
+  std::string vtk;     ///< folder, empty for none
   int threads = 0;
   Precision precision = Precision::Exact;
   double budget = std::numeric_limits<double>::infinity();  ///< seconds, for everything
@@ -44,6 +45,8 @@ struct CommonOptions {
 };
 
 void add_scene_argument(CLI::App& app, CommonOptions& options, bool required = true);
+/// --format, which add_scene_argument adds too.
+void add_format_option(CLI::App& app, CommonOptions& options);
 /// FILE, for commands that are asked of a JSON file instead of a scene.
 void add_file_argument(CLI::App& app, CommonOptions& options, const std::string& help);
 /// --json, --vtk, --threads, --precision, --budget.
@@ -68,8 +71,10 @@ Command command_of(std::shared_ptr<Options> options,
   };
 }
 
-/// Reads a mesh file and makes a scene of it, as stages of the session.
-[[nodiscard]] Scene read_scene(Session& session, const std::string& file);
+/// Reads a mesh file and makes a scene of it, as stages of the session.  Throws
+/// UsageError for "-" without a format.
+[[nodiscard]] Scene read_scene(Session& session, const std::string& file,
+                               const std::string& format = {});
 
 /// Seconds since it was made, and predicate calls of this thread since then.
 class Meter {

@@ -58,7 +58,7 @@ ExitStatus run(Session& session, const CommonOptions& options) {
   Outputs outputs(options);
   const Meter meter;
   const PrecisionScope precision(options.precision);
-  const Scene scene = read_scene(session, options.scene);
+  const Scene scene = read_scene(session, options.scene, options.format);
   const std::vector<Defect> defects = validate(scene, session.with_grace());
   if (!options.vtk.empty()) {
     session.write("VTK files", [&](const Request& request) {

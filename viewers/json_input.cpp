@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "linespace/input_file_internal.h"
 #include "linespace/predicates.h"
-#include "viewers/input_file.h"
 #include "viewers/json_parse_internal.h"
 
 namespace sightline::viewers {
@@ -22,7 +22,7 @@ std::string_view without_number(std::string_view what) {
 }
 
 nlohmann::json parse_file(const std::string& file) {
-  const std::string bytes = read_whole(file, JsonInput::kLargestFile);
+  const std::string bytes = internal::read_whole(file, JsonInput::kLargestFile);
   try {
     return parse_json<nlohmann::json>(bytes);
   } catch (const nlohmann::json::exception& reason) {
@@ -33,7 +33,7 @@ nlohmann::json parse_file(const std::string& file) {
 }  // namespace
 
 JsonInput::JsonInput(const std::string& file) {
-  const std::string name = file == kStandardInput ? "standard input" : file;
+  const std::string name = internal::told_name(file);
   document_ = std::make_shared<const Document>(Document{name, parse_file(file)});
   value_ = &document_->root;
 }

@@ -278,7 +278,7 @@ Made made_skeleton(Session& session, const SkeletonOptions& options, const Scene
 }
 
 Scene scene_of(Session& session, const SkeletonOptions& options) {
-  Scene scene = read_scene(session, options.scene);
+  Scene scene = read_scene(session, options.scene, options.format);
   if (options.perturb == 0) return scene;
   PolygonSoup moved = perturbed(scene, options.perturb, options.seed);
   moved.source = options.scene;  // the answer's options say how it was moved
@@ -299,23 +299,15 @@ void check_groups(const SkeletonOptions& options, const Scene& scene) {
 
 Json answer_of(const SkeletonOptions& options, const Scene& scene, const Made& made,
                bool complete, const Cost& cost, bool with_ids) {
-  Json answer = answer_head("skeleton", scene, complete, cost);
-  answer["options"] = made.options;
-  answer["options"]["precision"] =
-      options.precision == Precision::Exact ? "exact" : "double";
-  answer.update(skeleton_json(made.skeleton));
-  answer["simplified"] = simplified_json(scene, made.skeleton.simplified, with_ids);
-  return answer;
+  return skeleton_answer(scene, made.skeleton, made.options, options.precision, complete,
+                         cost, with_ids);
 }
 
 /// The file of -o: the skeleton, without what was asked of it.
 void save(Session& session, const Scene& scene, const Skeleton& skeleton,
           const Json& answer, OutputFile& file, const std::string& name) {
   session.write(name, [&](const Request& request) {
-    if (!write_skeleton_json(file.stream(), answer, scene, skeleton, nullptr, request)) {
-      throw Stopped("saving", 1);
-    }
-    file.commit();
+    save_skeleton_json(file, answer, scene, skeleton, request);
   });
 }
 

@@ -7,11 +7,11 @@
 #include <optional>
 #include <string_view>
 
+#include "linespace/input_file_internal.h"
 #include "linespace/stage_internal.h"
 #include "viewers/checksum.h"
 #include "viewers/drawing.h"
 #include "viewers/far_ends.h"
-#include "viewers/input_file.h"
 #include "viewers/json_parse_internal.h"
 #include "viewers/json_text.h"
 
@@ -423,8 +423,16 @@ bool write_skeleton_json(std::ostream& stream, const Json& head, const Scene& sc
   return whole;
 }
 
+void save_skeleton_json(OutputFile& file, const Json& head, const Scene& scene,
+                        const Skeleton& skeleton, const Request& request) {
+  if (!write_skeleton_json(file.stream(), head, scene, skeleton, nullptr, request)) {
+    throw Stopped("saving", 1);
+  }
+  file.commit();
+}
+
 StoredSkeleton read_skeleton_json(const std::string& path) {
-  const std::string text = read_whole(path);
+  const std::string text = internal::read_whole(path);
   check_whole(path, text);
   try {
     StoredSkeleton stored = skeleton_from(parse_json<Json>(text));

@@ -8,6 +8,7 @@
 #include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
 #include "viewers/answer.h"
+#include "viewers/output_file.h"
 
 namespace sightline::viewers {
 
@@ -27,6 +28,11 @@ namespace sightline::viewers {
 bool write_skeleton_json(std::ostream& stream, const Json& head, const Scene& scene,
                          const Skeleton& skeleton, const SkeletonLines* lines,
                          const Request& request = {});
+
+/// Saves the skeleton, without lines, and commits the file.  Throws Stopped, and then
+/// leaves the file uncommitted, and WriteError.
+void save_skeleton_json(OutputFile& file, const Json& head, const Scene& scene,
+                        const Skeleton& skeleton, const Request& request = {});
 
 /// A skeleton read back.
 struct StoredSkeleton {

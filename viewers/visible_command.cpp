@@ -194,7 +194,7 @@ Json pair_json(const Scene& scene, const FaceVisibility& visibility,
 ExitStatus run_sampled(Session& session, const VisibleOptions& options) {
   Outputs outputs(options);
   const Meter meter;
-  const Scene scene = read_scene(session, options.scene);
+  const Scene scene = read_scene(session, options.scene, options.format);
   const std::vector<int> as = scene.faces_named(options.a);
   const std::vector<int> bs = scene.faces_named(options.b);
   const OcclusionIndex index(scene, session.with_grace());
@@ -257,7 +257,7 @@ ExitStatus run_groups(Session& session, const VisibleOptions& options) {
   if (options.method == "sampled") return run_sampled(session, options);
   Outputs outputs(options);
   const Meter meter;
-  const Scene scene = read_scene(session, options.scene);
+  const Scene scene = read_scene(session, options.scene, options.format);
   const std::vector<int> as = scene.faces_named(options.a);
   const std::vector<int> bs = scene.faces_named(options.b);
   const FaceVisibility visibility(scene, session.with_grace(), options.seam);
@@ -332,8 +332,8 @@ ExitStatus run(Session& session, const VisibleOptions& options) {
     throw UsageError("visible: name two groups of the scene, A and B, or none");
   }
   if (!options.a.empty()) return run_groups(session, options);
-  if (options.all_pairs || !options.vtk.empty()) {
-    throw UsageError("visible: --all-pairs and --vtk go with a scene and A B");
+  if (options.all_pairs || !options.vtk.empty() || !options.format.empty()) {
+    throw UsageError("visible: --all-pairs, --vtk and --format go with a scene and A B");
   }
   return run_questions(session, options);
 }
@@ -386,6 +386,7 @@ Command add_visible_command(CLI::App& app) {
                     "decide every pair of faces of A and B, and list them");
   command->add_flag("--check", options->check,
                     "verify the proof of each \"hidden\" by the independent checker");
+  add_format_option(*command, *options);
   add_common_options(*command, *options);
   return command_of(options, run);
 }

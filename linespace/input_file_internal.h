@@ -6,15 +6,18 @@
 #include <limits>
 #include <string>
 
-namespace sightline::viewers {
+namespace sightline::internal {
 
 /// The name that stands for standard input.
 inline constexpr const char* kStandardInput = "-";
 
+/// The file's name in messages.
+[[nodiscard]] std::string told_name(const std::string& file);
+
 /// The bytes of a file, or of standard input.  Throws InvalidInput, "FILE: WHY", when
 /// there is no such file, it is a folder, it may not or cannot be read, or it has more
-/// than `most` bytes.  Hears a stop (linespace/stop_scope_internal.h) between blocks.
+/// than `most` bytes.  Hears a stop (stop_scope_internal.h) between blocks.
 [[nodiscard]] std::string read_whole(
     const std::string& file, std::size_t most = std::numeric_limits<std::size_t>::max());
 
-}  // namespace sightline::viewers
+}  // namespace sightline::internal

@@ -1,7 +1,4 @@
-#include "viewers/input_file.h"
-
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,15 +6,15 @@
 #include <cerrno>
 #include <cstring>
 
+#include "linespace/input_file_internal.h"
 #include "linespace/scene.h"
 #include "linespace/stop_scope_internal.h"
 
-namespace sightline::viewers {
+namespace sightline::internal {
 namespace {
 
-[[noreturn]] void refuse(const std::string& file, const std::string& why) {
-  throw InvalidInput(
-      fmt::format("{}: {}", file == kStandardInput ? "standard input" : file, why));
+[[noreturn]] void fail(const std::string& file, const std::string& why) {
+  throw InvalidInput(told_name(file) + ": " + why);
 }
 
 /// A file descriptor, closed at the end; standard input stays open.
@@ -39,19 +36,22 @@ class Descriptor {
 
 }  // namespace
 
+std::string told_name(const std::string& file) {
+  return file == kStandardInput ? "standard input" : file;
+}
+
 std::string read_whole(const std::string& file, std::size_t most) {
   const Descriptor descriptor(file);
   struct stat status {};
   if (descriptor.number() < 0 || ::fstat(descriptor.number(), &status) != 0) {
-    refuse(file, errno == ENOENT
-                     ? "no such file"
-                     : fmt::format("cannot be read: {}", std::strerror(errno)));
+    fail(file, errno == ENOENT ? std::string("no such file")
+                               : std::string("cannot be read: ") + std::strerror(errno));
   }
-  if (S_ISDIR(status.st_mode)) refuse(file, "is a folder");
+  if (S_ISDIR(status.st_mode)) fail(file, "is a folder");
   std::string bytes;
   for (;;) {
     constexpr std::size_t kBlock = 1 << 20;
-    internal::hear_stop_now();
+    hear_stop_now();
     const std::size_t size = bytes.size();
     // One block more than the file says it has, so that its end is seen.
     bytes.resize(std::max<std::size_t>(
@@ -60,12 +60,12 @@ std::string read_whole(const std::string& file, std::size_t most) {
                              std::min(bytes.size() - size, std::size_t{1} << 30));
     bytes.resize(size + static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) refuse(file, fmt::format("cannot be read: {}", std::strerror(errno)));
+    if (n < 0) fail(file, std::string("cannot be read: ") + std::strerror(errno));
     if (bytes.size() > most) {
-      refuse(file, fmt::format("is larger than {} MiB", most >> 20));
+      fail(file, "is larger than " + std::to_string(most >> 20) + " MiB");
     }
     if (n == 0) return bytes;
   }
 }
 
-}  // namespace sightline::viewers
+}  // namespace sightline::internal
