@@ -19,7 +19,7 @@ std::vector<PolygonSoup::Group> NodeGroups::groups() {
     listed += static_cast<std::size_t>(node.last - node.first);
     faces_in_all = std::max(faces_in_all, static_cast<std::size_t>(node.last));
   }
-  if (listed > kMostFaces && listed / kMostListings > faces_in_all) {
+  if (lists_too_many(listed, faces_in_all)) {
     throw InvalidInput("named nodes are nested too deep");
   }
   const auto rank = [&](const Node& node) {

@@ -9,6 +9,12 @@
 
 namespace sightline::internal {
 
+/// Whether groups that list so many faces take too much of the memory: more than 2^22,
+/// and each of the file's faces more than 64 times.
+[[nodiscard]] inline bool lists_too_many(std::size_t listed, std::size_t faces) {
+  return listed > std::size_t{1} << 22 && listed / 64 > faces;
+}
+
 /// Gathers the nodes of a tree, children before their parents, and makes groups of them.
 /// A node's group has the faces of all nodes below it.
 class NodeGroups {
@@ -20,14 +26,10 @@ class NodeGroups {
   /// The groups.  A face's object is the first group that lists it: of the nodes above it
   /// the nearest whose name is its own; names that several nodes bear ("IfcMappedItem")
   /// and the root's come last.  Throws InvalidInput when nodes are nested so deep that
-  /// the groups list more than kMostFaces faces and more than kMostListings times each
-  /// face.
+  /// lists_too_many.
   [[nodiscard]] std::vector<PolygonSoup::Group> groups();
 
  private:
-  static constexpr std::size_t kMostFaces = std::size_t{1} << 25;
-  static constexpr std::size_t kMostListings = 64;
-
   struct Node {
     std::string name;
     int first, last;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <map>
 #include <unordered_map>
 
 #include "linespace/mesh_io_internal.h"
+#include "linespace/mesh_io_nodes_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -56,9 +58,8 @@ class ObjReader {
                   "names vertex " + std::to_string(late_index_) + " of " +
                       std::to_string(soup_.vertices.size()));
     }
-    // A face under an `o` and a `g` belongs to the object of the latter, the finer name.
-    std::stable_partition(soup_.groups.begin(), soup_.groups.end(),
-                          [&](const auto& g) { return from_g_[numbers_.at(g.name)]; });
+    list_faces();
+    make_groups();
     return std::move(soup_);
   }
 
@@ -96,6 +97,7 @@ class ObjReader {
     } else if (word == "g") {
       read_groups(line);
     } else if (word == "o") {
+      list_faces();
       groups_.clear();
       object_ = line.rest().empty() ? -1 : group_named(std::string(line.rest()));
     } else if (std::find(kIgnored.begin(), kIgnored.end(), word) == kIgnored.end()) {
@@ -111,6 +113,7 @@ class ObjReader {
   // with
   // '#' on, the line belongs to that name ("g Part #1" is one group).
   void read_groups(LineReader& line) {
+    list_faces();
     groups_.clear();
     while (!line.rest().empty()) {
       const std::string_view all = line.rest();
@@ -121,7 +124,7 @@ class ObjReader {
         }
       }
       groups_.push_back(group_named(std::string(name)));
-      from_g_[groups_.back()] = true;
+      named_[groups_.back()].by_g = true;
     }
   }
 
@@ -138,10 +141,7 @@ class ObjReader {
       polygon.push_back(vertex_at(line, *index));
     }
     if (polygon.empty()) line.refuse("a face without corners");
-    const int face = static_cast<int>(soup_.polygons.size());
     soup_.polygons.push_back(std::move(polygon));
-    for (const int g : groups_) add(g, face);
-    if (object_ >= 0) add(object_, face);
   }
 
   // Counted from 1, or backwards from the latest vertex as -1.  A vertex may come later
@@ -160,19 +160,62 @@ class ObjReader {
     return static_cast<int>(index - 1);
   }
 
+  // The faces from one to another, both included.
+  using Range = std::pair<int, int>;
+  struct Named {
+    std::string name;
+    bool by_g;  // some `g` line has it
+    std::vector<Range> faces;
+  };
+
   int group_named(const std::string& name) {
-    const auto [entry, is_new] =
-        numbers_.emplace(name, static_cast<int>(soup_.groups.size()));
-    if (is_new) {
-      soup_.groups.push_back({name, {}});
-      from_g_.push_back(false);
-    }
+    const auto [entry, is_new] = numbers_.emplace(name, static_cast<int>(named_.size()));
+    if (is_new) named_.push_back({name, false, {}});
     return entry->second;
   }
 
-  void add(int group, int face) {
-    auto& faces = soup_.groups[group].faces;
-    if (faces.empty() || faces.back() != face) faces.push_back(face);
+  // The faces since the names changed last get those names.
+  void list_faces() {
+    const Range range{first_face_, static_cast<int>(soup_.polygons.size()) - 1};
+    first_face_ = range.second + 1;
+    if (range.second < range.first) return;
+    for (const int g : groups_) add(g, range);
+    if (object_ >= 0) add(object_, range);
+  }
+
+  void add(int group, const Range& range) {
+    auto& faces = named_[group].faces;
+    if (!faces.empty() && faces.back().second >= range.first) return;  // named twice
+    if (!faces.empty() && faces.back().second + 1 == range.first) {
+      faces.back().second = range.second;
+    } else {
+      faces.push_back(range);
+    }
+  }
+
+  // Names of the same faces make one group.  A face under an `o` and a `g` belongs to the
+  // object of the latter, the finer name.
+  void make_groups() {
+    std::stable_partition(named_.begin(), named_.end(),
+                          [](const Named& named) { return named.by_g; });
+    std::map<std::vector<Range>, std::size_t> known;
+    std::size_t listed = 0;
+    for (Named& named : named_) {
+      const auto [entry, is_new] = known.emplace(named.faces, soup_.groups.size());
+      if (!is_new) {
+        soup_.groups[entry->second].aliases.push_back(std::move(named.name));
+        continue;
+      }
+      auto& group = soup_.groups.emplace_back();
+      group.name = std::move(named.name);
+      for (const auto& [first, last] : named.faces) {
+        listed += static_cast<std::size_t>(last - first) + 1;
+        if (lists_too_many(listed, soup_.polygons.size())) {
+          throw InvalidInput(path_ + ": its groups list the same faces too often");
+        }
+        for (int f = first; f <= last; ++f) group.faces.push_back(f);
+      }
+    }
   }
 
   const std::string& path_;
@@ -180,9 +223,10 @@ class ObjReader {
   LineReader lines_;
   PolygonSoup soup_;
   std::unordered_map<std::string, int> numbers_;
-  std::vector<bool> from_g_;  // per group: some `g` line names it
-  std::vector<int> groups_;   // of the last `g`
-  int object_ = -1;           // of the last `o`
+  std::vector<Named> named_;
+  std::vector<int> groups_;  // of the last `g`
+  int object_ = -1;          // of the last `o`
+  int first_face_ = 0;       // that list_faces has not seen
   long long late_index_ = 0;
   std::size_t late_line_ = 0;
 };

@@ -264,7 +264,10 @@ namespace {
   const auto objects = scene.objects();
   std::vector<std::string> names;
   for (const Object& object : objects) names.push_back(object.name);
-  for (const PolygonSoup::Group& group : scene.soup().groups) names.push_back(group.name);
+  for (const PolygonSoup::Group& group : scene.soup().groups) {
+    names.push_back(group.name);
+    names.insert(names.end(), group.aliases.begin(), group.aliases.end());
+  }
   if (const auto near = nearest_name(name, names)) {
     throw InvalidInput("no group named '" + name + "'; did you mean '" + *near + "'?");
   }
@@ -302,7 +305,10 @@ std::vector<int> Scene::faces_named(const std::string& name) const {
   std::vector<std::uint8_t> wanted(soup_.polygons.size(), 0);
   bool known = false;
   for (const auto& group : soup_.groups) {
-    if (group.name != name) continue;
+    if (group.name != name && std::find(group.aliases.begin(), group.aliases.end(),
+                                        name) == group.aliases.end()) {
+      continue;
+    }
     known = true;
     for (const int f : group.faces) wanted[f] = 1;
   }

@@ -48,6 +48,9 @@ struct PolygonSoup {
   struct Group {
     std::string name;
     std::vector<int> faces;  ///< indices into `polygons`, ascending
+    /// Further names of the same faces, so that these are listed once: groups of their
+    /// own that come right behind this one.
+    std::vector<std::string> aliases = {};
   };
   std::vector<Point> vertices;
   std::vector<std::vector<int>> polygons;  ///< indices into `vertices`, from 0
@@ -218,9 +221,10 @@ class Scene {
   std::vector<Hollow> hollows_;
 };
 
-/// Pairs of faces of one object that meet in more than the corners and edges they share:
-/// one defect of kind "self-touching" per pair of polygons.  Exact.  Cost: about n log n
-/// for n faces and few touching pairs.
+/// Faces of one object that meet in more than the corners and edges they share: for each
+/// polygon that meets another so, one defect of kind "self-touching", which names it and
+/// one partner.  Exact.  Cost: about n log n for n faces, copies, fans and stars too; it
+/// grows faster where many boxes of faces overlap that meet nobody.
 [[nodiscard]] std::vector<Defect> find_self_touching(const Scene& scene);
 
 /// Every defect of the scene: those found while loading, then find_self_touching.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <unordered_set>
 
 #include "linespace/predicates.h"
 #include "linespace/scene_internal.h"
@@ -11,21 +12,25 @@
 namespace sightline::internal {
 namespace {
 
-// Faces joined through the points they share, within sets that `same` tells.
-template <class Same>
-DisjointSets components(const Scene& scene, const Same& same) {
+// Faces joined through the points they share, when label(face), from 0 to labels - 1, is
+// the same.
+template <class Label>
+DisjointSets components(const Scene& scene, std::size_t labels, const Label& label) {
   DisjointSets sets(scene.faces().size());
-  std::vector<int> representatives;
-  for (std::size_t p = 0; p < scene.points().size(); ++p) {
+  struct Latest {
+    int point = -1;  // the last one where a face of this label was seen
+    int face = -1;   // the first of them there
+  };
+  std::vector<Latest> latest(labels);
+  for (std::size_t i = 0; i < scene.points().size(); ++i) {
     hear_stop();
-    representatives.clear();
-    for (const int f : scene.faces_at(static_cast<int>(p))) {
-      const auto r = std::find_if(representatives.begin(), representatives.end(),
-                                  [&](int g) { return same(f, g); });
-      if (r == representatives.end()) {
-        representatives.push_back(f);
+    const int p = static_cast<int>(i);
+    for (const int f : scene.faces_at(p)) {
+      Latest& of_label = latest[label(f)];
+      if (of_label.point == p) {
+        sets.unite(f, of_label.face);
       } else {
-        sets.unite(f, *r);
+        of_label = {p, f};
       }
     }
   }
@@ -117,10 +122,12 @@ void SceneBuilder::make_objects() {
   std::vector<int> object_of(soup.polygons.size(), -1);  // first: group of that name
   std::vector<std::string> names;
   std::unordered_map<std::string, int> number_of;
+  std::unordered_set<std::string> aliases;  // name no object
   for (const auto& group : soup.groups) {
     const auto [entry, is_new] =
         number_of.emplace(group.name, static_cast<int>(names.size()));
     if (is_new) names.push_back(group.name);
+    aliases.insert(group.aliases.begin(), group.aliases.end());
     for (const int f : group.faces) {
       if (object_of[f] < 0) object_of[f] = entry->second;
     }
@@ -131,8 +138,7 @@ void SceneBuilder::make_objects() {
   }
   // Faces without a name: one object per component.
   if (std::find(group_of.begin(), group_of.end(), -1) != group_of.end()) {
-    auto sets = components(
-        scene, [&](int f, int g) { return (group_of[f] < 0) == (group_of[g] < 0); });
+    auto sets = components(scene, 2, [&](int f) { return group_of[f] < 0 ? 0 : 1; });
     std::vector<int> component(scene.faces_.size(), -1);
     int next = 0;
     for (std::size_t f = 0; f < group_of.size(); ++f) {
@@ -143,7 +149,7 @@ void SceneBuilder::make_objects() {
         std::string name;
         do {
           name = "component" + std::to_string(next++);
-        } while (number_of.contains(name));
+        } while (number_of.contains(name) || aliases.contains(name));
         names.push_back(std::move(name));
       }
       component[f] = number;
@@ -167,9 +173,8 @@ void SceneBuilder::make_objects() {
 }
 
 void SceneBuilder::describe_objects() {
-  auto sets = components(scene, [&](int f, int g) {
-    return scene.faces_[f].object == scene.faces_[g].object;
-  });
+  auto sets = components(scene, scene.objects_.size(),
+                         [&](int f) { return scene.faces_[f].object; });
   // By component: used equally often in both directions, edge by edge.
   std::vector<std::uint8_t> balanced(scene.faces_.size(), 1);
   for (std::size_t i = 0; i < half_edges.size();) {

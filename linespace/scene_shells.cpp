@@ -62,48 +62,100 @@ Sign volume_sign(const Scene& scene, const Faces& faces) {
   return static_cast<Sign>(exact_volume(scene, faces).sign());
 }
 
+// Of a closed surface seen from a point, the faces that a ray in the direction
+// (1, t, t^2) may meet.
+class AheadOf {
+ public:
+  AheadOf(const Scene& scene, const Point& eye) : scene_(scene), eye_(eye) {}
+
+  // The ray's way to x, y and z: it misses the face's box where these leave it no
+  // parameter.  The differences are rounded, and t and t^2 are small whole numbers: the
+  // parameters are off by less than 4 units in the last place.
+  [[nodiscard]] bool may_meet(int face, int t) const {
+    double from = 0, to = std::numeric_limits<double>::infinity();
+    double factor = 1;
+    for (int k = 0; k < 3; ++k, factor *= t) {
+      const auto [low, high] = reach(face, k);
+      from = std::max(from, outward(low, -1) / factor);
+      to = std::min(to, outward(high, 1) / factor);
+    }
+    return from <= to;
+  }
+  /// The eye is in the box of the face.
+  [[nodiscard]] bool is_within(int face) const {
+    for (int k = 0; k < 3; ++k) {
+      const auto [low, high] = reach(face, k);
+      if (low > 0 || high < 0) return false;
+    }
+    return true;
+  }
+
+ private:
+  // The sign of a rounded difference is right.
+  [[nodiscard]] std::array<double, 2> reach(int face, int axis) const {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const int p : scene_.face_points(face)) {
+      const double x = scene_.point(p)[axis] - eye_[axis];
+      low = std::min(low, x);
+      high = std::max(high, x);
+    }
+    return {low, high};
+  }
+  static double outward(double x, int way) { return x + way * 0x1p-50 * std::abs(x); }
+
+  const Scene& scene_;
+  const Point& eye_;
+};
+
+// A face from a point.
+struct SeenFace {
+  std::vector<ExactPoint> corners;
+  int side;  // of the face's plane that the point is on
+
+  SeenFace(const Scene& scene, int face, const Point& p, const ExactPoint& eye) {
+    const auto t = plane_points(scene, face);
+    side = static_cast<int>(orient3d(t[0], t[1], t[2], p));
+    for (const int c : scene.face_points(face)) {
+      corners.push_back(exact_difference(exact_point(scene.point(c)), eye));
+    }
+  }
+
+  // The point is on the face: in its plane, and the corners turn one way about it.
+  [[nodiscard]] bool holds_the_point() const {
+    if (side != 0) return false;
+    const ExactPoint normal = exact_cross(exact_difference(corners[1], corners[0]),
+                                          exact_difference(corners[2], corners[0]));
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const ExactPoint& next = corners[(k + 1) % corners.size()];
+      if (exact_dot(normal, exact_cross(corners[k], next)) < 0) return false;
+    }
+    return true;
+  }
+};
+
 // How often the faces, a closed surface, wind around p; nullopt where p is on one.  By
 // the crossings of a ray in the direction (1, t, t^2): one through a side of a face is
-// bad, and each side makes two t bad at most, so that some t decides.
+// bad, and each side makes two t bad at most, so that some t decides.  In the plane of a
+// face that p is not on, the ray does not meet it.
 std::optional<int> winding_number(const Scene& scene, const Faces& faces,
                                   const Point& p) {
   const ExactPoint eye = exact_point(p);
-  struct Ahead {
-    std::vector<ExactPoint> corners;  // from the eye
-    int side;                         // of the face's plane that the eye is on
-  };
-  std::vector<Ahead> all;
+  const AheadOf ahead(scene, p);
   for (const int f : faces) {
     hear_stop();
-    const auto t = plane_points(scene, f);
-    Ahead face{{}, static_cast<int>(orient3d(t[0], t[1], t[2], p))};
-    for (const int c : scene.face_points(f)) {
-      face.corners.push_back(exact_difference(exact_point(scene.point(c)), eye));
+    if (ahead.is_within(f) && SeenFace(scene, f, p, eye).holds_the_point()) {
+      return std::nullopt;
     }
-    if (face.side != 0) {
-      all.push_back(std::move(face));
-      continue;
-    }
-    // In the face's plane a ray meets the face only if the eye is on it: the corners
-    // turn one way about it then.
-    bool on = true;
-    const ExactPoint normal =
-        exact_cross(exact_difference(face.corners[1], face.corners[0]),
-                    exact_difference(face.corners[2], face.corners[0]));
-    for (std::size_t k = 0; k < face.corners.size() && on; ++k) {
-      const ExactPoint& a = face.corners[k];
-      const ExactPoint& b = face.corners[(k + 1) % face.corners.size()];
-      on = exact_dot(normal, exact_cross(a, b)) >= 0;
-    }
-    if (on) return std::nullopt;
   }
   for (int t = 1;; ++t) {
     const ExactPoint way{1, t, t * t};
     int winding = 0;
     bool bad = false;
-    for (const Ahead& face : all) {
+    for (const int f : faces) {
       hear_stop();
-      bool meets = true;
+      if (!ahead.may_meet(f, t)) continue;
+      const SeenFace face(scene, f, p, eye);
+      bool meets = face.side != 0;
       bool through_side = false;
       for (std::size_t k = 0; k < face.corners.size() && meets; ++k) {
         const ExactPoint& a = face.corners[k];
@@ -154,23 +206,6 @@ std::vector<std::vector<Faces>> shells_of(const Scene& scene,
   return shells;
 }
 
-// The other shells wind around this one.
-bool is_cavity(const Scene& scene, const std::vector<Faces>& shells, std::size_t shell) {
-  Faces others;
-  for (std::size_t i = 0; i < shells.size(); ++i) {
-    if (i != shell) others.insert(others.end(), shells[i].begin(), shells[i].end());
-  }
-  if (others.empty()) return false;
-  for (const int f : shells[shell]) {
-    for (const int p : scene.face_points(f)) {
-      if (const auto winding = winding_number(scene, others, scene.point(p))) {
-        return *winding > 0;
-      }
-    }
-  }
-  return true;  // touches them in all its corners
-}
-
 Box box_of(const Scene& scene, const Faces& faces) {
   const Point& first = scene.point(scene.face_points(faces[0])[0]);
   Box box{{first[0], first[1], first[2]}, {first[0], first[1], first[2]}};
@@ -191,6 +226,52 @@ bool contains(const Box& outer, const Box& inner) {
   }
   return true;
 }
+
+// The shells of an object by their boxes.
+class ShellBoxes {
+ public:
+  ShellBoxes(const Scene& scene, const std::vector<Faces>& shells)
+      : scene_(scene), shells_(shells), boxes_(boxes_of(scene, shells)), tree_(boxes_) {}
+
+  /// The other shells wind around this one.
+  [[nodiscard]] bool is_cavity(std::size_t shell) const {
+    if (shells_.size() < 2) return false;
+    for (const int f : shells_[shell]) {
+      for (const int p : scene_.face_points(f)) {
+        if (const auto winding = winding_of_others(shell, scene_.point(p))) {
+          return *winding > 0;
+        }
+      }
+    }
+    return true;  // touches them in all its corners
+  }
+
+ private:
+  static std::vector<Box> boxes_of(const Scene& scene, const std::vector<Faces>& shells) {
+    std::vector<Box> boxes;
+    boxes.reserve(shells.size());
+    for (const Faces& shell : shells) boxes.push_back(box_of(scene, shell));
+    return boxes;
+  }
+
+  // Shells whose boxes do not hold the point do not wind around it.
+  [[nodiscard]] std::optional<int> winding_of_others(std::size_t shell,
+                                                     const Point& p) const {
+    const Box at{{p.x(), p.y(), p.z()}, {p.x(), p.y(), p.z()}};
+    Faces others;
+    tree_.traverse([&](const Box& node) { return contains(node, at); },
+                   [&](std::uint32_t i) {
+                     if (i == shell || !contains(boxes_[i], at)) return;
+                     others.insert(others.end(), shells_[i].begin(), shells_[i].end());
+                   });
+    return winding_number(scene_, others, p);
+  }
+
+  const Scene& scene_;
+  const std::vector<Faces>& shells_;
+  std::vector<Box> boxes_;
+  Bvh tree_;
+};
 
 // All corners of the shell are in the other object's material or on its surface, and
 // some are in it.
@@ -253,13 +334,14 @@ void SceneBuilder::turn_shells() {
   for (std::size_t o = 0; o < all.size(); ++o) {
     stage.at(o, all.size());
     Object& object = scene.objects_[o];
+    std::optional<ShellBoxes> boxes;
     for (std::size_t i = 0; i < all[o].size(); ++i) {
       hear_stop();
       const Faces& shell = all[o][i];
       for (const int f : shell) scene.sides_[f] = Scene::FaceSides::Solid;
-      if (volume_sign(scene, shell) != Sign::Negative || is_cavity(scene, all[o], i)) {
-        continue;
-      }
+      if (volume_sign(scene, shell) != Sign::Negative) continue;
+      if (!boxes) boxes.emplace(scene, all[o]);
+      if (boxes->is_cavity(i)) continue;
       if (!closed) closed.emplace(scene, all);
       const int around = closed->around(static_cast<int>(o), shell);
       if (around >= 0) {

@@ -75,6 +75,24 @@ Json facet_json(const Scene& scene, int id) {
           {"objects", Json::array({scene.objects()[facet.object].name})}};
 }
 
+/// "defects", up to kDefectsListed of a kind, and "defect_counts", of all.
+void add_defects(Json& info, const std::vector<Defect>& defects) {
+  std::map<std::string, int> counts;
+  Json list = Json::array();
+  for (const Defect& defect : defects) {
+    if (++counts[defect.kind] > kDefectsListed) continue;
+    Json j{{"kind", defect.kind}};
+    if (!defect.faces.empty()) j["faces"] = defect.faces;
+    if (!defect.vertices.empty()) j["vertices"] = defect.vertices;
+    j["message"] = defect.message;
+    list.push_back(std::move(j));
+  }
+  info["defects"] = std::move(list);
+  info["defect_limit"] = kDefectsListed;
+  info["defect_counts"] = Json::object();
+  for (const auto& [kind, count] : counts) info["defect_counts"][kind] = count;
+}
+
 Json generator_json(const Scene& scene, const Generator& generator) {
   switch (generator.kind) {
     case GeneratorKind::Vertex:
@@ -172,19 +190,14 @@ Json info_json(const Scene& scene, const std::vector<Defect>& defects) {
   } else {
     for (const PolygonSoup::Group& group : scene.soup().groups) {
       groups.push_back({{"name", group.name}, {"faces", group.faces.size()}});
+      for (const std::string& alias : group.aliases) {
+        groups.push_back({{"name", alias}, {"faces", group.faces.size()}});
+      }
     }
   }
   info["groups"] = std::move(groups);
   info["bounds"] = points_json(scene.bounds());
-  Json list = Json::array();
-  for (const Defect& defect : defects) {
-    Json j{{"kind", defect.kind}};
-    if (!defect.faces.empty()) j["faces"] = defect.faces;
-    if (!defect.vertices.empty()) j["vertices"] = defect.vertices;
-    j["message"] = defect.message;
-    list.push_back(std::move(j));
-  }
-  info["defects"] = std::move(list);
+  add_defects(info, defects);
   info["objects"] = scene.objects().size();
   int convex = 0, closed = 0;
   for (const Object& object : scene.objects()) {
@@ -197,6 +210,15 @@ Json info_json(const Scene& scene, const std::vector<Defect>& defects) {
   info["maximal_edges"] = scene.edges().size();
   info["corners"] = scene.corners().size();
   return info;
+}
+
+std::map<std::string, std::string> first_defects(const Json& info) {
+  std::map<std::string, std::string> first;
+  for (const Json& defect : info["defects"]) {
+    first.emplace(defect["kind"].get<std::string>(),
+                  defect["message"].get<std::string>());
+  }
+  return first;
 }
 
 Json node_counts(const Skeleton& skeleton) {

@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -46,8 +47,12 @@ struct Cost {
 /// Exactly: numbers, or "p/q" where no double is.
 [[nodiscard]] Json position_json(const ExactPosition& position);
 
+/// Defects of a kind that info_json lists; "defect_counts" counts all.
+inline constexpr int kDefectsListed = 1000;
 /// What `sightline info` says about a scene, common keys left out.
 [[nodiscard]] Json info_json(const Scene& scene, const std::vector<Defect>& defects);
+/// Of each kind in it, the message of the first defect.
+[[nodiscard]] std::map<std::string, std::string> first_defects(const Json& info);
 
 /// Nodes and arcs by kind; kinds that every scene may have are there with 0.
 [[nodiscard]] Json node_counts(const Skeleton& skeleton);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <iostream>
-#include <map>
 
 #include "viewers/outputs.h"
 #include "viewers/vtk_export.h"
@@ -31,15 +30,10 @@ void print_summary(const Scene& scene, const Json& answer) {
       counted(scene.solids(), "component", "components"), e.convex, e.reflex, e.flat,
       e.boundary, e.nonmanifold, scene.corners().size(), scene.edges().size(),
       scene.facets().size(), low.x(), low.y(), low.z(), high.x(), high.y(), high.z());
-  std::map<std::string, std::pair<int, std::string>> kinds;
-  for (const Json& defect : answer["defects"]) {
-    auto& [count, first] = kinds[defect["kind"].get<std::string>()];
-    if (count++ == 0) first = defect["message"].get<std::string>();
-  }
-  if (kinds.empty()) std::cout << "  no defects\n";
-  for (const auto& [kind, entry] : kinds) {
-    std::cout << fmt::format("  defect: {}: {}, first: {}\n", kind, entry.first,
-                             entry.second);
+  if (answer["defects"].empty()) std::cout << "  no defects\n";
+  for (const auto& [kind, first] : first_defects(answer)) {
+    std::cout << fmt::format("  defect: {}: {}, first: {}\n", kind,
+                             answer["defect_counts"][kind].get<int>(), first);
   }
   constexpr std::size_t kShown = 12;
   const Json& groups = answer["groups"];

@@ -217,22 +217,19 @@ std::string scene_section(const Json& report) {
 }
 
 std::string defects_section(const Json& report) {
-  std::map<std::string, std::vector<std::string>> by_kind;
-  for (const Json& defect : report["info"]["defects"]) {
-    by_kind[defect["kind"].get<std::string>()].push_back(
-        defect["message"].get<std::string>());
-  }
-  if (by_kind.empty()) {
+  const Json& info = report["info"];
+  if (info["defects"].empty()) {
     return "<h2>Defects</h2>\n<p class=\"note fine\">None found.</p>\n";
   }
-  std::string html =
-      "<h2>Defects</h2>\n<p class=soft>The scene is used as it is; report.json lists all "
-      "with their ids.</p>\n<table><tr><th>kind</th><th class=n>count</th><th>first</th>"
-      "</tr>\n";
-  for (const auto& [kind, messages] : by_kind) {
-    html += fmt::format("<tr><td>{}</td><td class=n>{}</td><td>{}</td></tr>\n",
-                        html_escaped(kind), grouped(static_cast<int>(messages.size())),
-                        html_escaped(messages.front()));
+  std::string html = fmt::format(
+      "<h2>Defects</h2>\n<p class=soft>The scene is used as it is; report.json lists up "
+      "to {} of a kind with their ids.</p>\n<table><tr><th>kind</th><th "
+      "class=n>count</th><th>first</th></tr>\n",
+      grouped(kDefectsListed));
+  for (const auto& [kind, first] : first_defects(info)) {
+    html += fmt::format(
+        "<tr><td>{}</td><td class=n>{}</td><td>{}</td></tr>\n", html_escaped(kind),
+        grouped(info["defect_counts"][kind].get<int>()), html_escaped(first));
   }
   return html + "</table>\n";
 }

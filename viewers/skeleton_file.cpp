@@ -322,9 +322,13 @@ std::string fingerprint(const Scene& scene) {
   };
   sum.add(std::uint64_t{soup.polygons.size()});
   for (const std::vector<int>& polygon : soup.polygons) add_ids(polygon);
+  const auto add_name = [&](const std::string& name) {
+    sum.add(std::uint64_t{name.size()});
+    sum.add(name);
+  };
   for (const PolygonSoup::Group& group : soup.groups) {
-    sum.add(std::uint64_t{group.name.size()});
-    sum.add(group.name);
+    add_name(group.name);
+    for (const std::string& alias : group.aliases) add_name(alias);
     add_ids(group.faces);
   }
   return sum.text();

@@ -79,6 +79,38 @@ TEST(ReadMesh, KeepsDoublesAsWritten) {
   }
 }
 
+TEST(MeshIo, ObjNamesOfTheSameFacesMakeOneGroup) {
+  const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", face = "f 1 2 3\n";
+  const PolygonSoup soup = internal::read_obj(
+      "x.obj", corners + "g a b c\n" + face + "g b a a\n" + face + "g d\n" + face);
+  ASSERT_EQ(soup.groups.size(), 3u);
+  EXPECT_EQ(soup.groups[0].name, "a");
+  EXPECT_EQ(soup.groups[0].aliases, std::vector<std::string>{"b"});
+  EXPECT_EQ(soup.groups[0].faces, (std::vector<int>{0, 1}));
+  EXPECT_EQ(soup.groups[1].name, "c");
+  EXPECT_EQ(soup.groups[1].faces, std::vector<int>{0});
+  const Scene scene(soup);
+  ASSERT_EQ(scene.objects().size(), 2u);
+  EXPECT_EQ(scene.objects()[0].name, "a");
+  EXPECT_EQ(scene.faces_named("b"), (std::vector<int>{0, 1}));
+  EXPECT_EQ(scene.faces_named("c"), std::vector<int>{0});
+}
+
+// A name and a face a line, as the file has them, and no product of the two.
+TEST(MeshIo, ObjManyNamesOfManyFacesTakeLittle) {
+  constexpr int kMany = 9000;
+  std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng";
+  for (int i = 0; i < kMany; ++i) text += " n" + std::to_string(i);
+  for (int i = 0; i < kMany; ++i) text += "\nf 1 2 3";
+  const PolygonSoup soup = internal::read_obj("x.obj", text);
+  ASSERT_EQ(soup.groups.size(), 1u);
+  EXPECT_EQ(soup.groups[0].faces.size(), std::size_t{kMany});
+  EXPECT_EQ(soup.groups[0].aliases.size(), std::size_t{kMany} - 1);
+  // Each name with a face of its own as well: the lists differ, and would be long.
+  for (int i = 0; i < kMany; ++i) text += "\ng n" + std::to_string(i) + "\nf 1 2 3";
+  EXPECT_THROW((void)internal::read_obj("x.obj", text), InvalidInput);
+}
+
 TEST(ReadMesh, ObjGroupsAndIndices) {
   const PolygonSoup soup = read_mesh(data("formats/groups.obj"));
   EXPECT_EQ(soup.polygons,

@@ -160,6 +160,22 @@ TEST_F(Cli, InfoReportsDefectsWithIds) {
   }
 }
 
+TEST_F(Cli, InfoListsSomeDefectsOfAKindAndCountsAll) {
+  const std::string file = (folder_ / "copies.obj").string();
+  {
+    std::ofstream out(file);
+    out << "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    for (int i = 0; i < 2500; ++i) out << "f 1 2 3\n";
+  }
+  const json j = answer({"info", file});
+  EXPECT_EQ(j.at("defect_limit"), 1000);
+  EXPECT_EQ(j.at("defect_counts"),
+            json::parse(R"({"duplicate face": 2499, "non-manifold edge": 3,
+                            "self-touching": 2500})"));
+  EXPECT_EQ(j.at("defects").size(), 2003U);
+  EXPECT_TRUE(answer({"info", kRoom}).at("defect_counts").empty());
+}
+
 TEST_F(Cli, MalformedFilesAreRefusedInOneLine) {
   for (const auto& file :
        fs::directory_iterator(std::string(SIGHTLINE_TEST_DATA) + "/malformed")) {
