@@ -250,17 +250,17 @@ class Emptiness::Proofs {
         return true;
       }
       const ExactGame::Row exact = game.gamma();
-      const auto failing = std::ranges::partition(others, [&](int r) {
+      const auto failing = std::partition(others.begin(), others.end(), [&](int r) {
         Rational product = 0;
         for (int i = 0; i < 9; ++i) product += exact[i] * values[r][i];
         return product > 0;
       });
-      if (failing.empty()) {
+      if (failing == others.end()) {
         for (int i = 0; i < 9; ++i) gamma[i] = static_cast<double>(exact[i]);
         return false;
       }
-      rows.insert(rows.end(), failing.begin(), failing.end());
-      others.erase(failing.begin(), failing.end());
+      rows.insert(rows.end(), failing, others.end());
+      others.erase(failing, others.end());
     }
   }
 

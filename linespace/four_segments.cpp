@@ -85,9 +85,10 @@ std::vector<Arc> arcs_of(
   std::ranges::sort(breaks, [](const Parameter& p, const Parameter& q) {
     return order(p, q) == Sign::Positive;
   });
-  const auto repeats = std::ranges::unique(
-      breaks, [](const auto& p, const auto& q) { return order(p, q) == Sign::Zero; });
-  breaks.erase(repeats.begin(), repeats.end());
+  const auto repeats =
+      std::unique(breaks.begin(), breaks.end(),
+                  [](const auto& p, const auto& q) { return order(p, q) == Sign::Zero; });
+  breaks.erase(repeats, breaks.end());
   // Cells: break 0, the gap behind it, break 1, ...
   const std::size_t n = breaks.size();
   std::vector<std::optional<ExactLine>> cell(2 * n);
@@ -612,9 +613,10 @@ class InPlane {
       std::ranges::sort(around, [](const Direction& a, const Direction& b) {
         return order(a.v, b.v) == Sign::Positive;
       });
-      const auto repeats =
-          std::ranges::unique(around, {}, [](const Direction& d) { return d.vertex; });
-      around.erase(repeats.begin(), repeats.end());
+      const auto repeats = std::unique(
+          around.begin(), around.end(),
+          [](const Direction& a, const Direction& b) { return a.vertex == b.vertex; });
+      around.erase(repeats, around.end());
       arcs_at(i, around);
     }
   }

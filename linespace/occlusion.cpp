@@ -873,7 +873,8 @@ std::vector<int> OcclusionIndex::faces_meeting_triangle(const Point& a, const Po
   const Kernel::Point_3 p = kernel_point(a), q = kernel_point(b), r = kernel_point(c);
   const bool flat = CGAL::collinear(p, q, r);
   // A triangle without area is its longest side, or a point.
-  const auto [low, high] = std::minmax({p, q, r});
+  const auto ends = std::minmax({p, q, r});
+  const Kernel::Point_3 &low = ends.first, &high = ends.second;
   const auto meets = [&](const Kernel::Triangle_3& t) {
     if (!flat) return CGAL::do_intersect(t, Kernel::Triangle_3(p, q, r));
     if (low == high) return t.has_on(low);

@@ -142,7 +142,7 @@ class Swaths {
       return high - low;
     };
     const auto longest = std::ranges::max_element(f.edges, {}, spread);
-    std::ranges::rotate(f.edges, longest);
+    std::rotate(f.edges.begin(), longest, f.edges.end());
   }
 
   [[nodiscard]] double parameter(const LineThrough& e, int line) const {
