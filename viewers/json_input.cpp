@@ -21,8 +21,7 @@ std::string_view without_number(std::string_view what) {
   return end == std::string_view::npos ? what : what.substr(end + 2);
 }
 
-nlohmann::json parse_file(const std::string& file) {
-  const std::string bytes = internal::read_whole(file, JsonInput::kLargestFile);
+nlohmann::json parse(const std::string& file, std::string_view bytes) {
   try {
     return parse_json<nlohmann::json>(bytes);
   } catch (const nlohmann::json::exception& reason) {
@@ -32,9 +31,13 @@ nlohmann::json parse_file(const std::string& file) {
 
 }  // namespace
 
-JsonInput::JsonInput(const std::string& file) {
-  const std::string name = internal::told_name(file);
-  document_ = std::make_shared<const Document>(Document{name, parse_file(file)});
+JsonInput::JsonInput(const std::string& file)
+    : JsonInput(internal::told_name(file), internal::read_whole(file, kLargestFile)) {}
+
+JsonInput::JsonInput(std::string file, std::string_view bytes) {
+  nlohmann::json root = parse(file, bytes);
+  document_ =
+      std::make_shared<const Document>(Document{std::move(file), std::move(root)});
   value_ = &document_->root;
 }
 

@@ -25,6 +25,8 @@ class JsonInput {
   /// why).
   explicit JsonInput(const std::string& file);
   static constexpr std::size_t kLargestFile = std::size_t{1} << 30;
+  /// Parses the bytes of a file of that name.  Throws InvalidInput when they are no JSON.
+  JsonInput(std::string file, std::string_view bytes);
 
   /// Whether this object has a member of that name.  Refuses what is no object.
   [[nodiscard]] bool has(std::string_view key) const;

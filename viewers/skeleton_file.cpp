@@ -133,9 +133,8 @@ class Malformed : public std::runtime_error {
 };
 
 std::int32_t id_from(const Json& j) {
-  const auto id = j.get<std::int64_t>();
-  if (!j.is_number_integer() || id < -1 ||
-      id > std::numeric_limits<std::int32_t>::max()) {
+  const auto id = j.is_number_integer() ? j.get<std::int64_t>() : -2;
+  if (id < -1 || id > std::numeric_limits<std::int32_t>::max()) {
     throw Malformed(fmt::format("{} is no id", j.dump()));
   }
   return static_cast<std::int32_t>(id);
@@ -438,6 +437,10 @@ void save_skeleton_json(OutputFile& file, const Json& head, const Scene& scene,
 StoredSkeleton read_skeleton_json(const std::string& path) {
   const std::string text = internal::read_whole(path);
   check_whole(path, text);
+  return parse_skeleton_json(path, text);
+}
+
+StoredSkeleton parse_skeleton_json(const std::string& path, std::string_view text) {
   try {
     StoredSkeleton stored = skeleton_from(parse_json<Json>(text));
     stored.file = path;

@@ -4,6 +4,7 @@
 
 #include <ostream>
 #include <string>
+#include <string_view>
 
 #include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
@@ -50,6 +51,10 @@ struct StoredSkeleton {
 /// skeleton_json and, with ids, simplified_json.  Throws InvalidInput when the file is
 /// none, has no checksum or a wrong one, or says what no skeleton does.
 [[nodiscard]] StoredSkeleton read_skeleton_json(const std::string& path);
+
+/// The same of the file's text, whatever its checksum: for tests.
+[[nodiscard]] StoredSkeleton parse_skeleton_json(const std::string& path,
+                                                 std::string_view text);
 
 /// Throws InvalidInput when the skeleton is of another scene, by its fingerprint, or an
 /// id of it is not one of the scene.

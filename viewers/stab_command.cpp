@@ -6,8 +6,8 @@
 
 #include "linespace/portals.h"
 #include "viewers/command_line.h"
-#include "viewers/json_input.h"
 #include "viewers/outputs.h"
+#include "viewers/questions.h"
 #include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
@@ -18,31 +18,6 @@ struct StabOptions : CommonOptions {
   int rungs = 17;
   bool list = false;
 };
-
-struct Question {
-  std::vector<std::vector<Point>> portals;
-  std::vector<JsonInput> items;  // the same, to say where something is wrong
-};
-
-Question read_question(const std::string& name) {
-  Question q;
-  q.items = JsonInput(name).at("portals").items();
-  for (const JsonInput& item : q.items) q.portals.push_back(item.points(1));
-  return q;
-}
-
-/// Refuses, before anything is computed, what is no convex polygon, and says where in
-/// the file it stands.
-void check(const Question& question) {
-  for (std::size_t i = 0; i < question.portals.size(); ++i) {
-    try {
-      SeparatingPlanesSequence().push(question.portals[i]);
-    } catch (const InvalidInput& refusal) {
-      const std::string_view what = refusal.what();
-      question.items[i].refuse(what.substr(what.find(": ") + 2));
-    }
-  }
-}
 
 std::string generator_text(const PortalGenerator& g) {
   const char letter = "VEP"[static_cast<int>(g.kind)];
@@ -141,19 +116,19 @@ std::vector<LineBlock::Polygon> drawn(const StabbingSwath& swath) {
   return out;
 }
 
-void write_pictures(const StabOptions& options, const Question& question,
+void write_pictures(const StabOptions& options, const PortalsQuestion& portals,
                     const PortalSequence& sequence, const Request& computing,
                     const Request& writing) {
   std::vector<LineBlock> blocks;
-  LineBlock portals{"portals", "portal", {}};
+  LineBlock areas{"portals", "portal", {}};
   LineBlock slits{"slits", "portal", {}};
-  for (std::size_t i = 0; i < question.portals.size(); ++i) {
-    const std::vector<Point>& p = question.portals[i];
+  for (std::size_t i = 0; i < portals.size(); ++i) {
+    const std::vector<Point>& p = portals[i];
     const std::string note = fmt::format("portals[{}]", i);
-    if (p.size() > 2) portals.polygons.push_back({p, note});
+    if (p.size() > 2) areas.polygons.push_back({p, note});
     if (p.size() == 2) slits.pieces.push_back({p[0], p[1], note});
   }
-  blocks.push_back(std::move(portals));
+  blocks.push_back(std::move(areas));
   blocks.push_back(std::move(slits));
   for (std::size_t kind = 0; kind < kStabbingKinds; ++kind) {
     const std::string text(name(static_cast<StabbingKind>(kind)));
@@ -196,16 +171,16 @@ void print_summary(const StabOptions& options, const Json& answer) {
 }
 
 /// So many portals are pushed.
-void tell_portals(Session& session, std::size_t done, const Question& question) {
+void tell_portals(Session& session, std::size_t done, const PortalsQuestion& portals) {
   session.tell("portals",
-               static_cast<double>(done) / static_cast<double>(question.portals.size()));
+               static_cast<double>(done) / static_cast<double>(portals.size()));
 }
 
-Json head(Session& session, const Question& question, const Meter& meter, bool complete) {
+Json head(Session& session, const PortalsQuestion& portals, const Meter& meter,
+          bool complete) {
   std::size_t corners = 0;
-  for (const auto& p : question.portals) corners += p.size();
-  return answer_head("stab",
-                     Json{{"portals", question.portals.size()}, {"corners", corners}},
+  for (const auto& p : portals) corners += p.size();
+  return answer_head("stab", Json{{"portals", portals.size()}, {"corners", corners}},
                      complete, {session.seconds(), meter.predicates()});
 }
 
@@ -217,16 +192,16 @@ ExitStatus finish(Session& session, const StabOptions& options, Outputs& outputs
 }
 
 ExitStatus run_conservative(Session& session, const StabOptions& options,
-                            Outputs& outputs, const Question& question,
+                            Outputs& outputs, const PortalsQuestion& portals,
                             const Meter& meter) {
   SeparatingPlanesSequence sequence;
-  for (const std::vector<Point>& portal : question.portals) {
+  for (const std::vector<Point>& portal : portals) {
     if (session.stopped()) break;
     sequence.push(portal);
-    tell_portals(session, sequence.size(), question);
+    tell_portals(session, sequence.size(), portals);
   }
-  const bool complete = sequence.size() == question.portals.size();
-  Json answer = head(session, question, meter, complete || !sequence.maybe_stabbable());
+  const bool complete = sequence.size() == portals.size();
+  Json answer = head(session, portals, meter, complete || !sequence.maybe_stabbable());
   answer["method"] = "conservative";
   answer["portals_done"] = sequence.size();
   // A longer sequence is not easier to stab.
@@ -238,12 +213,13 @@ ExitStatus run_conservative(Session& session, const StabOptions& options,
 }
 
 /// Pushes portals until the time is over; what each push did.
-Json push_all(Session& session, PortalSequence& sequence, const Question& question) {
+Json push_all(Session& session, PortalSequence& sequence,
+              const PortalsQuestion& portals) {
   Json pushes = Json::array();
-  for (std::size_t i = 0; i < question.portals.size(); ++i) {
-    tell_portals(session, i, question);
+  for (std::size_t i = 0; i < portals.size(); ++i) {
+    tell_portals(session, i, portals);
     const Meter push_meter;
-    if (!sequence.push(question.portals[i], session.limited())) break;
+    if (!sequence.push(portals[i], session.limited())) break;
     pushes.push_back({{"portal", i},
                       {"stabbable", sequence.stabbable()},
                       {"extremal", sequence.extremal_lines().size()},
@@ -256,17 +232,14 @@ Json push_all(Session& session, PortalSequence& sequence, const Question& questi
 ExitStatus run(Session& session, const StabOptions& options) {
   Outputs outputs(options);
   const Meter meter;
-  const Question question = session.read([&] {
-    Question read = read_question(options.scene);
-    check(read);
-    return read;
-  });
+  const PortalsQuestion portals =
+      session.read([&] { return portals_question(JsonInput(options.scene)); });
   if (options.method == "conservative") {
-    return run_conservative(session, options, outputs, question, meter);
+    return run_conservative(session, options, outputs, portals, meter);
   }
   PortalSequence sequence;
-  Json pushes = push_all(session, sequence, question);
-  const bool all = sequence.size() == question.portals.size();
+  Json pushes = push_all(session, sequence, portals);
+  const bool all = sequence.size() == portals.size();
   Json found;
   found["method"] = "exact";
   found["portals_done"] = sequence.size();
@@ -284,10 +257,10 @@ ExitStatus run(Session& session, const StabOptions& options) {
   const bool complete = all && !session.stopped();
   if (!options.vtk.empty()) {
     session.write("VTK files", [&](const Request& request) {
-      write_pictures(options, question, sequence, session.limited(), request);
+      write_pictures(options, portals, sequence, session.limited(), request);
     });
   }
-  Json answer = head(session, question, meter, complete && session.unwritten().empty());
+  Json answer = head(session, portals, meter, complete && session.unwritten().empty());
   answer.update(found);
   return finish(session, options, outputs, answer);
 }

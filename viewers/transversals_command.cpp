@@ -8,8 +8,8 @@
 #include "linespace/segment_transversals.h"
 #include "linespace/stage_internal.h"
 #include "viewers/command_line.h"
-#include "viewers/json_input.h"
 #include "viewers/outputs.h"
+#include "viewers/questions.h"
 #include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
@@ -19,27 +19,7 @@ struct TransversalsOptions : CommonOptions {
   bool list = false;
 };
 
-struct Question {
-  std::vector<LineThrough> segments, lines;
-};
-
-std::vector<LineThrough> lines_of(const JsonInput& file, const char* key) {
-  std::vector<LineThrough> out;
-  if (!file.has(key)) return out;
-  for (const JsonInput& item : file.at(key).items()) {
-    const auto [from, to] = item.two_points();
-    out.push_back({from, to});
-  }
-  return out;
-}
-
-Question read_question(const std::string& name) {
-  const JsonInput file(name);
-  if (!file.has("segments") && !file.has("lines")) {
-    file.refuse("has neither \"segments\" nor \"lines\"");
-  }
-  return {lines_of(file, "segments"), lines_of(file, "lines")};
-}
+using Question = TransversalsQuestion;
 
 // {"segments": [...], "lines": [...]}: numbers in the file's two arrays.
 template <class Elements>
@@ -165,7 +145,8 @@ void print_summary(const TransversalsOptions& options, const Question& question,
 ExitStatus run(Session& session, const TransversalsOptions& options) {
   Outputs outputs(options);
   const Meter meter;
-  const Question question = session.read([&] { return read_question(options.scene); });
+  const Question question =
+      session.read([&] { return transversals_question(JsonInput(options.scene)); });
   TransversalRequest request;
   request.precision = options.precision;
   request.threads = options.threads;

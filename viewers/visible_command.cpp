@@ -13,8 +13,8 @@
 #include "linespace/visibility_cover.h"
 #include "linespace/visibility_estimate.h"
 #include "viewers/command_line.h"
-#include "viewers/json_input.h"
 #include "viewers/outputs.h"
+#include "viewers/questions.h"
 #include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
@@ -94,26 +94,11 @@ Json checked_json(const VisibilityQuestion& question, const VisibilityAnswer& an
 // ---- questions from a file
 // ---------------------------------------------------------------
 
-std::vector<VisibilityQuestion> read_questions(const std::string& name) {
-  const JsonInput file(name);
-  std::vector<VisibilityQuestion> questions;
-  for (const JsonInput& instance : file.at("instances").items()) {
-    VisibilityQuestion& q = questions.emplace_back();
-    q.a = instance.at("a").points(3);
-    q.b = instance.at("b").points(3);
-    if (!instance.has("occluders")) continue;
-    for (const JsonInput& occluder : instance.at("occluders").items()) {
-      q.occluders.push_back(occluder.points(1));
-    }
-  }
-  return questions;
-}
-
 ExitStatus run_questions(Session& session, const VisibleOptions& options) {
   Outputs outputs(options);
   const Meter meter;
   const std::vector<VisibilityQuestion> questions =
-      session.read([&] { return read_questions(options.scene); });
+      session.read([&] { return visibility_questions(JsonInput(options.scene)); });
   Json answers = Json::array();
   VisibilityCost cost;
   std::size_t counts[3] = {};

@@ -4,6 +4,9 @@
 
 #include "linespace/mesh_io_internal.h"
 #include "tests/support/unhurried.h"
+#ifdef SIGHTLINE_FUZZ_VIEWERS
+#include "fuzz_viewers.h"
+#endif
 
 namespace sightline::fuzz {
 namespace {
@@ -26,12 +29,19 @@ void run_step(const std::string& bytes) {
   }
 }
 
-constexpr std::array kFunctions{Function{"gltf", run_reader<internal::read_gltf>},
-                                Function{"obj", run_reader<internal::read_obj>},
-                                Function{"off", run_reader<internal::read_off>},
-                                Function{"ply", run_reader<internal::read_ply>},
-                                Function{"stl", run_reader<internal::read_stl>},
-                                Function{"step", run_step}};
+constexpr std::array kFunctions{
+#ifdef SIGHTLINE_FUZZ_VIEWERS
+    Function{"portals", run_portals},
+    Function{"skeleton", run_skeleton},
+    Function{"transversals", run_transversals},
+    Function{"visible", run_visible},
+#endif
+    Function{"gltf", run_reader<internal::read_gltf>},
+    Function{"obj", run_reader<internal::read_obj>},
+    Function{"off", run_reader<internal::read_off>},
+    Function{"ply", run_reader<internal::read_ply>},
+    Function{"stl", run_reader<internal::read_stl>},
+    Function{"step", run_step}};
 
 }  // namespace
 

@@ -1,0 +1,59 @@
+#include "fuzz_viewers.h"
+
+#include <stop_token>
+
+#include "linespace/mesh_io_internal.h"
+#include "tests/support/unhurried.h"
+#include "viewers/builtin_scene.h"
+#include "viewers/questions.h"
+#include "viewers/skeleton_file.h"
+
+namespace sightline::fuzz {
+namespace {
+
+using viewers::JsonInput;
+
+template <class Read>
+void refusing(const Read& read) {
+  try {
+    read();
+  } catch (const InvalidInput&) {
+  }
+}
+
+}  // namespace
+
+void run_portals(const std::string& bytes) {
+  refusing([&] { (void)viewers::portals_question(JsonInput("fuzz", bytes)); });
+}
+
+void run_transversals(const std::string& bytes) {
+  refusing([&] { (void)viewers::transversals_question(JsonInput("fuzz", bytes)); });
+}
+
+void run_visible(const std::string& bytes) {
+  std::stop_source stopped;
+  stopped.request_stop();
+  VisibilityRequest request;
+  request.stop = stopped.get_token();
+  request.threads = 1;
+  request.samples = 1;
+  refusing([&] {
+    for (const auto& question : viewers::visibility_questions(JsonInput("fuzz", bytes))) {
+      refusing([&] { (void)polygon_visibility(question, request); });
+    }
+  });
+}
+
+void run_skeleton(const std::string& bytes) {
+  static const Scene room(
+      internal::read_obj("room.obj", viewers::builtin_scene(), test::Unhurried()));
+  static const std::string fingerprint = viewers::fingerprint(room);
+  refusing([&] {
+    viewers::StoredSkeleton stored = viewers::parse_skeleton_json("fuzz", bytes);
+    stored.fingerprint = fingerprint;
+    viewers::check_fits(stored, room);
+  });
+}
+
+}  // namespace sightline::fuzz

@@ -1,0 +1,17 @@
+// The files that commands read beside scenes: JSON questions and saved skeletons.
+
+#pragma once
+
+#include <string>
+
+namespace sightline::fuzz {
+
+/// The questions of `stab`, `transversals` and `visible`, up to where computing begins.
+void run_portals(const std::string& bytes);
+void run_transversals(const std::string& bytes);
+void run_visible(const std::string& bytes);
+/// A saved skeleton of the room (examples/scenes/room.obj), read as if its checksum and
+/// its fingerprint were right, so that the parser is reached and ids meet the scene's.
+void run_skeleton(const std::string& bytes);
+
+}  // namespace sightline::fuzz
