@@ -369,6 +369,7 @@ void SceneBuilder::join_edges() {
       const Face& face = scene.faces_[h.face];
       const int from = h.forward ? h.low : h.high;
       const int to = h.forward ? h.high : h.low;
+      hear_stop();
       for (int k = 0; k < face.corner_count; ++k) {
         if (scene.corners_[face.first_corner + k] == from &&
             scene.corners_[face.first_corner + (k + 1) % face.corner_count] == to) {

@@ -8,6 +8,7 @@
 
 #include "linespace/predicates.h"
 #include "linespace/scene_internal.h"
+#include "linespace/stop_scope_internal.h"
 
 namespace sightline::internal {
 
@@ -118,6 +119,7 @@ bool crosses_itself(const std::vector<Point2>& q) {
   const auto right = [&](int i) { return std::max(q[i][0], q[(i + 1) % n][0]); };
   std::sort(order.begin(), order.end(), [&](int i, int j) { return left(i) < left(j); });
   for (int s = 0; s < n; ++s) {
+    hear_stop();
     const int i = order[s];
     const Point2 &a = q[i], &b = q[(i + 1) % n];
     for (int t = s + 1; t < n && left(order[t]) <= right(i); ++t) {
@@ -193,6 +195,7 @@ struct EarClipper {
     for (int i = 0; i < n; ++i) examine(i);
     int at = 0;
     for (int left = n; left > 3; --left) {
+      hear_stop();
       int b = best(at, left);
       if (b < 0) {  // only where the polygon crosses or touches itself
         pieces.crossing = true;

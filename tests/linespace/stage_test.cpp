@@ -6,11 +6,15 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <set>
 #include <stop_token>
 #include <string>
+#include <thread>
 
+#include "linespace/face_visibility.h"
 #include "linespace/mesh_io.h"
+#include "linespace/occlusion.h"
 #include "linespace/scene.h"
 #include "linespace/stage_internal.h"
 #include "tests/support/generators.h"
@@ -101,6 +105,66 @@ TEST(Stage, HearsAStopInEveryStage) {
   EXPECT_TRUE(stages.contains("reading"));
   EXPECT_TRUE(stages.contains("faces"));
   EXPECT_TRUE(stages.contains("edges"));
+}
+
+TEST(Stage, EndsIndexesAndTheLookForDefects) {
+  const Scene scene(many_boxes());
+  Request request;
+  request.budget_seconds = 0;
+  EXPECT_THROW((void)validate(scene, request), Stopped);
+  EXPECT_THROW(OcclusionIndex(scene, request), Stopped);
+  EXPECT_THROW(FaceVisibility(scene, request), Stopped);
+}
+
+// What calls hear_stop() often enough to be heard.
+void long_loop() {
+  for (int i = 0; i < 64; ++i) internal::hear_stop();
+}
+
+TEST(StopScope, IsHeardInAnyDepthWhileItLives) {
+  bool stop = false;
+  const std::function<bool()> outer_stop = [&] { return stop; };
+  const std::function<bool()> never;
+  long_loop();
+  {
+    const internal::StopScope outer(outer_stop);
+    long_loop();
+    stop = true;
+    EXPECT_THROW(long_loop(), Stopped);
+    const internal::StopScope inner(never);
+    EXPECT_THROW(internal::hear_stop_now(), Stopped);
+  }
+  EXPECT_NO_THROW(long_loop());
+}
+
+TEST(StopScope, IsItsThreadsOwn) {
+  const std::function<bool()> stop = [] { return true; };
+  const internal::StopScope scope(stop);
+  bool heard = false;
+  std::thread([&] {
+    try {
+      long_loop();
+    } catch (const Stopped&) {
+      heard = true;
+    }
+  }).join();
+  EXPECT_FALSE(heard);
+  EXPECT_THROW(long_loop(), Stopped);
+}
+
+TEST(StopScope, TellsTheNameOfTheStageAround) {
+  std::stop_source source;
+  Request request;
+  request.stop = source.get_token();
+  internal::Stage stage(request, "first");
+  stage.begin("second");
+  source.request_stop();
+  try {
+    internal::hear_stop_now();
+    FAIL();
+  } catch (const Stopped& stopped) {
+    EXPECT_EQ(stopped.stage(), "second");
+  }
 }
 
 }  // namespace

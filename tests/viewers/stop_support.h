@@ -61,7 +61,24 @@ class Stopping : public ::testing::Test {
     return pid;
   }
 
-  /// Until the end, or until that long after a signal that is sent after `after` seconds.
+  /// Waits until the program is far enough to hear signals: it blocks them for a thread
+  /// of its own.
+  static void await_hearing(pid_t pid) {
+    const std::string name = "/proc/" + std::to_string(pid) + "/status";
+    for (int tries = 0; tries < 5000; ++tries) {
+      std::ifstream status(name);
+      for (std::string word; status >> word;) {
+        if (word != "SigBlk:") continue;
+        unsigned long long blocked = 0;
+        status >> std::hex >> blocked;
+        if ((blocked >> (SIGINT - 1) & 1) != 0) return;
+        break;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  }
+
+  /// Until the end; with a signal that long after the program hears it.
   [[nodiscard]] Run run(const Command& command, int signal = 0, double after = 0) const {
     for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
       std::filesystem::remove_all(entry);
@@ -69,6 +86,7 @@ class Stopping : public ::testing::Test {
     auto since = Clock::now();
     const pid_t pid = start(command);
     if (signal != 0) {
+      await_hearing(pid);
       std::this_thread::sleep_for(std::chrono::duration<double>(after));
       since = Clock::now();
       kill(pid, signal);

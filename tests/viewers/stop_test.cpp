@@ -79,7 +79,7 @@ class Stop : public test::Stopping {
 TEST_F(Stop, BudgetsHoldForEveryCommand) {
   testing::Random random(3);
   for (Command command : commands()) {
-    const double budget = random.uniform(0.02, 0.7);
+    const double budget = random.uniform(0.02, 0.5);
     command.insert(command.end(), {"--budget", std::to_string(budget)});
     const Run r = run(command);
     expect_clean(r, text_of(command), "budget");
@@ -92,7 +92,7 @@ TEST_F(Stop, SignalsAreHeardAtAnyMoment) {
   testing::Random random(7);
   int sent = 0;
   for (const Command& command : commands()) {
-    const double after = random.uniform(0.03, 0.7);
+    const double after = random.uniform(0.03, 0.5);
     const Run r = run(command, ++sent % 2 == 0 ? SIGINT : SIGTERM, after);
     const std::string what = text_of(command) + "signal after " + std::to_string(after);
     expect_clean(r, what, "interrupted");
@@ -103,6 +103,7 @@ TEST_F(Stop, SignalsAreHeardAtAnyMoment) {
 
 TEST_F(Stop, ASecondSignalEndsAtOnce) {
   const pid_t pid = start({"skeleton", input_ / "city.obj"});
+  await_hearing(pid);
   std::this_thread::sleep_for(std::chrono::milliseconds(300));
   kill(pid, SIGINT);
   std::this_thread::sleep_for(std::chrono::milliseconds(60));
