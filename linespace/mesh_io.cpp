@@ -201,10 +201,10 @@ void check_format(const std::string& path, const std::string& format) {
   if (std::find(known.begin(), known.end(), format) != known.end()) return;
   std::string list;
   for (const std::string& name : known) list += " ." + name;
-  refuse(told_name(path),
-         (format.empty() ? std::string("no extension tells its format")
-                         : "no mesh format is known by the extension " + quoted(format)) +
-             "; read are" + list);
+  refuse(told_name(path), (format.empty() ? std::string("no extension tells its format")
+                                          : "no mesh format is known by the extension " +
+                                                internal::quoted(format)) +
+                              "; read are" + list);
 }
 
 // Refuses what is not there, and folders, whatever their names end in.
