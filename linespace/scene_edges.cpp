@@ -279,8 +279,8 @@ void SceneBuilder::join_edges() {
   for (std::size_t e = 0; e < mesh_edges.size(); ++e) {
     if (mesh_edges[e].kind != EdgeKind::Flat) candidates.push_back(static_cast<int>(e));
   }
-  // Around each point, the candidates by object; where two of one object meet, they may
-  // be one.
+  // Around each point, the candidates by object: two of one object may be one, whatever
+  // other edges end there.
   struct End {
     int point, object, edge;
   };
@@ -303,11 +303,16 @@ void SceneBuilder::join_edges() {
            ends[j].object == ends[i].object) {
       ++j;
     }
-    if (j == i + 2) {
-      const int p = ends[i].point, e = ends[i].edge, f = ends[i + 1].edge;
-      if (joiner.continues(e, f, p)) {
-        follower[e][joiner.high(e) == p] = f;
-        follower[f][joiner.high(f) == p] = e;
+    const int p = ends[i].point;
+    for (std::size_t k = i; k < j; ++k) {
+      const int e = ends[k].edge;
+      int& after = follower[e][joiner.high(e) == p];
+      for (std::size_t l = k + 1; l < j && after < 0; ++l) {
+        const int f = ends[l].edge;
+        int& before = follower[f][joiner.high(f) == p];
+        if (before >= 0 || !joiner.continues(e, f, p)) continue;
+        after = f;
+        before = e;
       }
     }
     i = j;
