@@ -104,6 +104,7 @@ void SceneBuilder::run() {
   stage.begin("objects");
   make_objects();
   check_duplicates();
+  drop_copies();
   stage.begin("sides");
   collect_half_edges();
   stage.begin("shells");
@@ -327,6 +328,9 @@ std::vector<int> Scene::faces_named(const std::string& name) const {
   for (std::size_t f = 0; f < faces_.size(); ++f) {
     if (wanted[faces_[f].source]) faces.push_back(static_cast<int>(f));
   }
+  const std::vector<int> repeated = internal::repeated_faces(*this, wanted);
+  faces.insert(faces.end(), repeated.begin(), repeated.end());
+  std::sort(faces.begin(), faces.end());
   return faces;
 }
 

@@ -112,6 +112,8 @@ struct SceneBuilder {
   void make_objects();  // scene_objects.cpp
   void describe_objects();
 
+  void drop_copies();  // scene_copies.cpp
+
   void turn_shells();  // scene_shells.cpp
   void turn_face(int face);
   void report_inside_out(const std::vector<int>& shell, bool is_part, int around);
@@ -121,6 +123,12 @@ struct SceneBuilder {
   void make_facets(DisjointSets& regions);
   void join_edges();
 };
+
+/// Face ids, ascending, of the faces that the wanted polygons of the file (1, for each)
+/// repeat: those of them that have no face of their own, since drop_copies() left them
+/// out.
+[[nodiscard]] std::vector<int> repeated_faces(const Scene& scene,
+                                              const std::vector<std::uint8_t>& wanted);
 
 /// The plane of a face, as three points: its first three corners.
 [[nodiscard]] inline std::array<Point, 3> plane_points(const Scene& scene, int face) {

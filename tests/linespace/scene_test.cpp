@@ -452,8 +452,7 @@ TEST(Scene, ReportsEachDefect) {
       {"non_convex.obj", {{"non-convex polygon", 1}}},
       {"self_crossing.obj", {{"self-crossing polygon", 1}}},
       {"keyhole.obj", {{"repeated vertex", 1}, {"non-convex polygon", 1}}},
-      {"duplicate_face.obj",
-       {{"duplicate face", 2}, {"non-manifold edge", 3}, {"self-touching", 3}}},
+      {"duplicate_face.obj", {{"duplicate face", 2}, {"self-touching", 1}}},
       {"inconsistent_orientation.obj", {{"inconsistent orientation", 4}}},
       {"non_manifold.obj", {{"non-manifold edge", 1}}},
       {"self_touching.obj", {{"self-touching", 8}}},
@@ -559,6 +558,28 @@ TEST(Scene, AStarThatWindsTwiceCrossesItself) {
   const Scene scene(soup(v, {{0, 2, 4, 1, 3}}));
   EXPECT_EQ(kinds(validate(scene)), (Kinds{{"self-crossing polygon", 1}}));
   EXPECT_TRUE(Scene(soup(v, {{0, 1, 2, 3, 4}})).defects().empty());
+}
+
+TEST(Scene, RepeatedFaceCountsOnceAndOpensNoSolid) {
+  PolygonSoup s = grid_box(1);
+  const std::size_t faces = s.polygons.size();
+  s.groups = {{"box", {}}, {"copy", {}}};
+  for (int f = 0; f < static_cast<int>(faces); ++f) s.groups[0].faces.push_back(f);
+  std::vector<int> again = s.polygons[2];
+  std::rotate(again.begin(), again.begin() + 1, again.end());
+  s.groups[0].faces.push_back(static_cast<int>(faces));
+  s.groups[1].faces.push_back(static_cast<int>(faces));
+  s.polygons.push_back(again);
+  const Scene scene(s);
+  check_invariants(scene);
+  EXPECT_EQ(scene.faces().size(), faces);
+  EXPECT_EQ(scene.edges().size(), 12u);
+  EXPECT_TRUE(scene.objects()[0].closed);
+  EXPECT_TRUE(scene.objects()[0].convex);
+  EXPECT_EQ(kinds(validate(scene)), (Kinds{{"duplicate face", 1}}));
+  // Names of the copy mean the face that it repeats.
+  EXPECT_EQ(scene.faces_named("copy"), std::vector<int>{2});
+  EXPECT_EQ(scene.faces_named("box").size(), faces);
 }
 
 TEST(Scene, DuplicatesOfCutPolygonsKnowTheirSide) {
