@@ -1388,6 +1388,22 @@ std::vector<Touch> LineScan::touches(int contact) const {
   return out;
 }
 
+std::vector<int> LineScan::edge_on_corners(int contact) const {
+  std::vector<int> out;
+  for (int h = impl_->first_hit[contact]; h < impl_->first_hit[contact + 1]; ++h) {
+    const Hit& hit = impl_->hits[h];
+    if (hit.kind != TouchKind::EdgeOn) continue;
+    const int n = impl_->scene.faces()[hit.face].corner_count;
+    for (int i = hit.loop; i < hit.loop + n; ++i) {
+      const Corner& c = impl_->corners[impl_->loops[i]];
+      if (c.u.zero()) out.push_back(c.point);
+    }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  return out;
+}
+
 std::vector<int> LineScan::faces_at(int contact, const Rational& t) const {
   std::vector<int> out;
   for (int h = impl_->first_hit[contact]; h < impl_->first_hit[contact + 1]; ++h) {

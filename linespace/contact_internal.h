@@ -54,6 +54,9 @@ class LineScan {
   [[nodiscard]] const Rational& to(int contact) const;
   /// By face id, each face once.
   [[nodiscard]] std::vector<Touch> touches(int contact) const;
+  /// Point ids, ascending, of the corners of its faces in a plane with the line that lie
+  /// on the line: where such a face's stretch begins, ends, or has a straight corner.
+  [[nodiscard]] std::vector<int> edge_on_corners(int contact) const;
   /// Faces of the contact that meet the line at exactly this position, ascending.
   [[nodiscard]] std::vector<int> faces_at(int contact, const Rational& t) const;
   /// Positions at which a face of the contact begins or ends, ascending, without repeats.

@@ -109,8 +109,8 @@ Generators::Generators(const Scene& scene, EventMode events, const Request& requ
   for (std::size_t p = 0; p < scene.points().size(); ++p) {
     stage.at(p, scene.points().size());
     std::vector<std::int32_t> ids;
-    for (const int f : scene.faces_at(static_cast<int>(p)))
-      ids.push_back(scene.faces()[f].object);
+    for (const int e : scene.edges_at(static_cast<int>(p)))
+      ids.push_back(scene.edges()[e].object);
     sort_unique(ids);
     object_ids_.insert(object_ids_.end(), ids.begin(), ids.end());
     object_starts_[p + 1] = static_cast<std::int32_t>(object_ids_.size());

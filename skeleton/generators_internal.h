@@ -90,8 +90,10 @@ struct Ridge {
 /// The faces around a corner, touching ones of other objects included.
 struct Star {
   std::int32_t point = -1;
-  std::vector<std::int32_t> faces;   ///< with the point on their boundary or inside
-  std::vector<std::int32_t> facets;  ///< of those faces that belong to `point`'s own
+  /// With the point on their boundary or inside.
+  std::vector<std::int32_t> faces;
+  /// Those with an edge that ends at the point, ascending: its own.
+  std::vector<std::int32_t> facets;
   /// Rays along the sides at the point, as far end points: one per direction.
   std::vector<std::int32_t> rays;
   /// Each face as (ray, ray, facet), positions in `rays`, less than half a turn apart.
@@ -101,11 +103,11 @@ struct Star {
   std::vector<Sector> sectors;
   /// The solid is locally the intersection of half-spaces: `sectors` are its faces.
   bool convex = false;
-  /// Some face has the point in its inside: only lines in that plane can graze.
+  /// Some facet has the point in its inside: only lines in that plane can graze.
   bool in_plane_only = false;
-  std::vector<std::int32_t> planes;  ///< then: those faces
-  /// A face of another object touches here: lines need the general contact test when it
-  /// is in their way.
+  std::vector<std::int32_t> planes;  ///< then: a face of each of those facets
+  /// A facet that has no corner here has the point on it, or two objects have theirs
+  /// here: lines need the general contact test when it is in their way.
   bool touched = false;
 };
 
@@ -131,7 +133,8 @@ class Generators {
   [[nodiscard]] bool inside_solid(int star) const { return inside_[star] != 0; }
   [[nodiscard]] int inside_count() const { return inside_count_; }
 
-  /// Objects in which the point is a corner of a face, ascending.
+  /// Objects with an edge that ends at the point, ascending: not those that have it
+  /// inside a facet or a straight edge.
   [[nodiscard]] std::span<const std::int32_t> objects_at(int point) const {
     return {object_ids_.data() + object_starts_[point],
             static_cast<std::size_t>(object_starts_[point + 1] - object_starts_[point])};
@@ -200,7 +203,9 @@ class Generators {
   [[nodiscard]] bool shows_crease(std::array<std::int32_t, 2> points,
                                   std::int32_t first_edge, std::int32_t last_edge) const;
   void find_stars(const Request& request, Stage& stage);
-  [[nodiscard]] Star star_at(int point) const;
+  [[nodiscard]] Star star_of(int point) const;
+  [[nodiscard]] bool inside_facet(int point, int facet,
+                                  std::span<const std::int32_t> faces) const;
   void find_inside(const Request& request, Stage& stage);
   void find_aligned();
 

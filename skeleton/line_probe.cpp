@@ -48,13 +48,14 @@ void LineProbe::name(std::span<const Generator> known) {
   const Scene& scene = g_.scene();
   objects_.clear();
   facets_.clear();
-  const auto add_facets = [&](std::span<const int> faces) {
-    for (const int f : faces) facets_.push_back(scene.faces()[f].facet);
-  };
   for (const Generator& x : known) {
     if (x.kind == GeneratorKind::Vertex) {
       for (const int o : g_.objects_at(x.id)) objects_.push_back(o);
-      add_facets(scene.faces_at(x.id));
+      const int star = g_.star_of_point(x.id);
+      if (star >= 0) {
+        const auto& own = g_.stars()[star].facets;
+        facets_.insert(facets_.end(), own.begin(), own.end());
+      }
     } else if (x.kind == GeneratorKind::Face) {
       objects_.push_back(scene.facets()[x.id].object);
       facets_.push_back(x.id);

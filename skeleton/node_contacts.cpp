@@ -25,12 +25,14 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
     const auto corners = scene.face_points(t.face);
     if (t.kind == TouchKind::Corner) {
       const int p = corners[t.index];
-      if (g.star_of_point(p) >= 0) {
-        found.push_back({GeneratorKind::Vertex, p});
-      } else {
-        const auto n = static_cast<int>(corners.size());
-        add_edge(scene.edge_of_side(t.face, t.index));
-        add_edge(scene.edge_of_side(t.face, (t.index + n - 1) % n));
+      if (g.star_of_point(p) >= 0) found.push_back({GeneratorKind::Vertex, p});
+      // An edge that goes straight on here, whoever else has a corner.
+      const auto n = static_cast<int>(corners.size());
+      for (const int side : {t.index, (t.index + n - 1) % n}) {
+        const int edge = scene.edge_of_side(t.face, side);
+        if (edge < 0) continue;
+        const auto& ends = scene.edges()[edge].points;
+        if (ends[0] != p && ends[1] != p) add_edge(edge);
       }
     } else if (t.kind == TouchKind::Edge) {
       add_edge(scene.edge_of_side(t.face, t.index));
@@ -38,10 +40,15 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
       facets.push_back(scene.faces()[t.face].facet);
     }
   }
+  for (const int p : scan.edge_on_corners(contact)) {
+    if (g.star_of_point(p) >= 0) found.push_back({GeneratorKind::Vertex, p});
+  }
   sort_unique(facets);
   // A side through which the line leaves an edge-on face says nothing new.
   std::erase_if(found, [&](const Generator& x) {
     if (x.kind != GeneratorKind::Edge) return false;
+    const int ridge = g.ridge_of_edge(x.id);
+    if (ridge >= 0) return share(g.ridges()[ridge].all_facets, facets);
     const auto& sides = scene.edges()[x.id].sides;
     return std::any_of(sides.begin(), sides.end(), [&](const Edge::Side& s) {
       return std::binary_search(facets.begin(), facets.end(),

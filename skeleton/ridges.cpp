@@ -121,17 +121,13 @@ std::vector<std::int32_t> facets_of(const Scene& scene,
 }  // namespace
 
 struct Generators::EdgeFaces {
-  // What the edge can become: nothing; a part of the ridge before it, if that has the
-  // same ends; or a ridge of its own too.
-  enum class Use : std::uint8_t { None, JoinOnly, Ridge };
-
   std::vector<std::int32_t> thirds, faces;  // a point of each half-plane, its face
   int a = -1, b = -1;                       // those that bound a gap of more than half
   bool reflex = false;                      // of a closed object: that gap is inside
   bool touched = false, foot = false;
   std::vector<std::int32_t> pierced_by = {};  // as of Ridge
   bool many = false;                          // polygon mode: more than two half-planes
-  Use use = Use::None;
+  bool is_ridge = false;  // of its own, or a part of the one before it
   [[nodiscard]] bool has_gap() const { return a >= 0 && b >= 0; }
 };
 
@@ -164,10 +160,9 @@ void Generators::find_ridges(const Request& request, Stage& stage) {
 
 // The edge becomes a ridge, or a part of one, or nothing.
 void Generators::add_edge(int edge, const EdgeFaces& at, std::vector<Box>& boxes) {
-  if (at.use == EdgeFaces::Use::None) return;
+  if (!at.is_ridge) return;
   // Edges of several objects that coincide are one generator.
   if (join_ridge(edge, at)) return;
-  if (at.use == EdgeFaces::Use::JoinOnly) return;
   ridge_of_edge_[edge] = static_cast<int>(ridges_.size());
   if (at.many && !at.touched) {
     add_gaps(edge, at, boxes);
@@ -268,10 +263,6 @@ void Generators::find_touching(const Edge& e, EdgeFaces& at) const {
   std::vector<std::array<Rational, 2>> stretches;
   std::vector<int> grounds;  // faces that contain a part of the edge
   const auto is_own = [&](int f) {
-    if (has_point(s, f, e.points[0]) && has_point(s, f, e.points[1])) {
-      const bool own = std::find(at.faces.begin(), at.faces.end(), f) != at.faces.end();
-      if (own || s.faces()[f].object == e.object) return true;
-    }
     // Faces along a chain of mesh edges merged into this one are its own.
     return std::any_of(at.faces.begin(), at.faces.end(), [&](int own) {
       return s.faces()[own].facet == s.faces()[f].facet;
@@ -310,8 +301,7 @@ void Generators::find_touching(const Edge& e, EdgeFaces& at) const {
             });
   at.touched = touched == EdgeTouch::Pierced || touched == EdgeTouch::Touches || at.foot;
   if (polygon() || touched != EdgeTouch::Pierced) at.pierced_by.clear();
-  if (covered && !at.foot) return;
-  at.use = inside_faces && !at.foot ? EdgeFaces::Use::JoinOnly : EdgeFaces::Use::Ridge;
+  at.is_ridge = !inside_faces || at.foot;
 }
 
 // To the ridge of an edge with the same ends, found before.

@@ -1,6 +1,7 @@
 // The faces around corners.
 
 #include <algorithm>
+#include <array>
 
 #include "linespace/stop_scope_internal.h"
 #include "skeleton/generators_internal.h"
@@ -19,6 +20,42 @@ bool same_direction(const Point& origin, const Point& p, const Point& q) {
   return false;
 }
 
+// The angle of a face at one of its corners, or all around a point of it that is none,
+// as wedges of less than half a turn: (far point, far point, facet).
+using Wedge = std::array<std::int32_t, 3>;
+void add_wedges(const Scene& s, int f, int p, std::vector<Wedge>& wedges) {
+  const Point& at = s.point(p);
+  const auto c = s.face_points(f);
+  const std::size_t n = c.size();
+  const int facet = s.faces()[f].facet;
+  const auto found = std::find(c.begin(), c.end(), p);
+  if (found == c.end()) {
+    const InPlaneSide left_of(s, f);
+    for (std::size_t k = 0; k < n; ++k) {
+      const int q = c[k];
+      const int r = c[(k + 1) % n];
+      if (left_of(s.point(q), s.point(r), at) != Sign::Zero)
+        wedges.push_back({q, r, facet});
+    }
+    return;
+  }
+  const auto k = static_cast<std::size_t>(found - c.begin());
+  const int next = c[(k + 1) % n];
+  const int previous = c[(k + n - 1) % n];
+  if (!collinear(at, s.point(next), s.point(previous))) {
+    wedges.push_back({next, previous, facet});
+    return;
+  }
+  // The point lies on a straight side of the polygon: half a plane.
+  for (std::size_t m = 2; m < n; ++m) {
+    const int third = c[(k + m) % n];
+    if (collinear(at, s.point(next), s.point(third))) continue;
+    wedges.push_back({next, third, facet});
+    wedges.push_back({third, previous, facet});
+    break;
+  }
+}
+
 }  // namespace
 
 void Generators::find_stars(const Request& request, Stage& stage) {
@@ -29,63 +66,67 @@ void Generators::find_stars(const Request& request, Stage& stage) {
   }
   stars_.resize(corners.size());
   for_each_of(0, corners.size(), corners.size(), request, stage,
-              [&](std::size_t i) { stars_[i] = star_at(corners[i]); });
+              [&](std::size_t i) { stars_[i] = star_of(corners[i]); });
 }
 
-Star Generators::star_at(int p) const {
+// None of these faces of the facet, all that have the point, has it on a side that is an
+// edge.
+bool Generators::inside_facet(int point, int facet,
+                              std::span<const std::int32_t> faces) const {
   const Scene& s = *scene_;
+  const Point& at = s.point(point);
+  for (const int f : faces) {
+    if (s.faces()[f].facet != facet) continue;
+    const auto c = s.face_points(f);
+    for (std::size_t k = 0; k < c.size(); ++k) {
+      if (s.edge_of_side(f, static_cast<int>(k)) < 0) continue;
+      const int p = c[k];
+      const int q = c[(k + 1) % c.size()];
+      if (p == point || q == point || collinear(s.point(p), s.point(q), at)) return false;
+    }
+  }
+  return true;
+}
+
+Star Generators::star_of(int p) const {
+  const Scene& s = *scene_;
+  const Point& at = s.point(p);
   Star star;
   star.point = p;
-  const Point& at = s.point(p);
-  const auto own = s.faces_at(p);
-  star.faces.assign(own.begin(), own.end());
-  std::vector<std::array<std::int32_t, 3>> wedges;  // far point, far point, facet
-  for (const int f : own) {
-    const auto c = s.face_points(f);
-    const std::size_t n = c.size();
-    const auto k = static_cast<std::size_t>(std::find(c.begin(), c.end(), p) - c.begin());
-    const int next = c[(k + 1) % n];
-    const int previous = c[(k + n - 1) % n];
-    if (collinear(at, s.point(next), s.point(previous))) {
-      // The point lies on a straight side of the polygon: half a plane.
-      for (std::size_t m = 2; m < n; ++m) {
-        const int third = c[(k + m) % n];
-        if (collinear(at, s.point(next), s.point(third))) continue;
-        wedges.push_back({next, third, s.faces()[f].facet});
-        wedges.push_back({third, previous, s.faces()[f].facet});
-        break;
-      }
-    } else {
-      wedges.push_back({next, previous, s.faces()[f].facet});
+  for (const int e : s.edges_at(p)) {
+    for (const Edge::Side& side : s.edges()[e].sides) {
+      star.facets.push_back(s.faces()[side.face].facet);
     }
-    star.facets.push_back(s.faces()[f].facet);
   }
+  sort_unique(star.facets);
+  const auto is_own = [&](int f) {
+    return std::binary_search(star.facets.begin(), star.facets.end(), s.faces()[f].facet);
+  };
+  // The faces at the point: whether it is one of their vertices does not matter.
+  star.faces.assign(s.faces_at(p).begin(), s.faces_at(p).end());
   const Box box = box_of(std::array<Point, 1>{at});
   face_tree_.traverse([&](const Box& other) { return boxes_meet(box, other); },
                       [&](std::uint32_t item) {
-                        hear_stop();
                         const int f = static_cast<int>(item);
                         if (has_point(s, f, p) || face_planes_[f](at) != Sign::Zero)
                           return;
-                        const PointInFace where = locate_in_plane(s, f, at);
-                        if (where == PointInFace::Outside) return;
-                        star.faces.push_back(f);
-                        star.touched = true;
-                        const auto c = s.face_points(f);
-                        const std::size_t n = c.size();
-                        const InPlaneSide left_of(s, f);
-                        if (where == PointInFace::Inside) {
-                          star.in_plane_only = true;
-                          star.planes.push_back(f);
-                        }
-                        for (std::size_t k = 0; k < n; ++k) {
-                          const Point& q = s.point(c[k]);
-                          const Point& r = s.point(c[(k + 1) % n]);
-                          if (left_of(q, r, at) == Sign::Zero) continue;
-                          wedges.push_back({c[k], c[(k + 1) % n], s.faces()[f].facet});
-                        }
+                        if (locate_in_plane(s, f, at) != PointInFace::Outside)
+                          star.faces.push_back(f);
                       });
-  sort_unique(star.facets);
+  std::vector<Wedge> wedges;
+  for (const int f : star.faces) add_wedges(s, f, p, wedges);
+  std::vector<std::int32_t> foreign;
+  for (const int f : star.faces) {
+    if (!is_own(f)) foreign.push_back(s.faces()[f].facet);
+  }
+  sort_unique(foreign);
+  for (const int facet : foreign) {
+    if (!inside_facet(p, facet, star.faces)) continue;
+    star.in_plane_only = true;
+    star.planes.push_back(
+        *std::find_if(star.faces.begin(), star.faces.end(),
+                      [&](std::int32_t f) { return s.faces()[f].facet == facet; }));
+  }
   const auto ray = [&](std::int32_t far) {
     hear_stop();
     for (std::size_t r = 0; r < star.rays.size(); ++r) {
@@ -99,20 +140,21 @@ Star Generators::star_at(int p) const {
   };
   for (const auto& w : wedges) star.sectors.push_back({ray(w[0]), ray(w[1]), w[2]});
 
-  star.touched = star.touched || objects_at(p).size() > 1;
-  bool convex = !star.touched && std::all_of(own.begin(), own.end(),
+  star.touched = !foreign.empty() || objects_at(p).size() > 1;
+  bool convex = !star.touched && std::all_of(star.faces.begin(), star.faces.end(),
                                              [&](int f) { return solid_behind(f); });
   for (const int e : s.edges_at(p))
     convex = convex && s.edges()[e].kind == EdgeKind::Convex;
   // Locally convex along every edge and one fan: check it is one cone.
-  for (std::size_t k = 0; k < own.size() && convex; ++k) {
+  for (const int f : star.faces) {
+    if (!convex) break;
     for (const auto& w : wedges) {
-      if (w[2] == s.faces()[own[k]].facet) continue;
+      if (w[2] == s.faces()[f].facet) continue;
       for (int end = 0; end < 2 && convex; ++end) {
-        if (face_planes_[own[k]](s.point(w[end])) != Sign::Positive) continue;
+        if (face_planes_[f](s.point(w[end])) != Sign::Positive) continue;
         // Rays shared with the facet itself may rise above another of its triangles.
         convex = std::any_of(wedges.begin(), wedges.end(), [&](const auto& other) {
-          return other[2] == s.faces()[own[k]].facet &&
+          return other[2] == s.faces()[f].facet &&
                  (other[0] == w[end] || other[1] == w[end]);
         });
       }
