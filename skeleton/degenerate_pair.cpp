@@ -316,7 +316,7 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     const Point& e0 = scene.point(edge.points[0]);
     const Point& e1 = scene.point(edge.points[1]);
     if (!view.special[id] && !leaves_by_corner(node, e0, e1) &&
-        (!g.aligned() || !may_touch_more(node, e0, e1, cut))) {
+        !may_touch_more(node, e0, e1, cut)) {
       return;
     }
     hear_stop_now();

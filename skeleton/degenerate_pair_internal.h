@@ -43,9 +43,9 @@ std::uint32_t contact_node(const Generators& generators, const Star& star,
 
 /// Looks at nodes of a view along their whole maximal free segments: those with more
 /// contacts than their kind has become Degenerate, with all generators listed from the
-/// end with the smaller one.  Looked at are nodes found among zero signs, and in an
-/// aligned scene all that `probe` is not certain of: whatever else was asked for, so that
-/// a part names its nodes as the whole does.
+/// end with the smaller one.  Looked at are nodes found among zero signs, and all that
+/// `probe` is not certain of: whatever else was asked for, so that a part names its nodes
+/// as the whole does.
 void find_further_contacts(const Generators& generators, const Star& star,
                            LineProbe& probe, VertexView& view);
 

@@ -198,8 +198,9 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
     node.ends = ends_at(outer, curve, cut, stretch);
     if (cut.kind == CurveCutKind::Far) std::swap(node.ends[0], node.ends[1]);
   }
-  if (may_touch_more(outer, curve, middle, cut) ||
-      (g_.aligned() && may_touch_beyond(outer, curve, cut, node))) {
+  // Both outer edges may enter a face at once.
+  if (node.kind == NodeKind::Pierce || may_touch_more(outer, curve, middle, cut) ||
+      may_touch_beyond(outer, curve, cut, node)) {
     list_contacts(outer, curve, cut, node);
     if (!node.all.empty()) return node;
   }

@@ -5,7 +5,6 @@
 
 #include "linespace/solid_index_internal.h"
 #include "linespace/stop_scope_internal.h"
-#include "linespace/transversals_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/parallel_internal.h"
 #include "skeleton/rooms_internal.h"
@@ -27,11 +26,6 @@ std::vector<Box> boxes_of_faces(const Scene& scene) {
     boxes.push_back(box_of_face(scene, static_cast<int>(f)));
   }
   return boxes;
-}
-
-bool parallel(const RingVector& a, const RingVector& b) {
-  return is_zero(a[1] * b[2] - a[2] * b[1]) && is_zero(a[2] * b[0] - a[0] * b[2]) &&
-         is_zero(a[0] * b[1] - a[1] * b[0]);
 }
 
 }  // namespace
@@ -126,8 +120,6 @@ Generators::Generators(const Scene& scene, EventMode events, const Request& requ
   find_stars(request, stage);
   stage.begin("corners in solids");
   find_inside(request, stage);
-  stage.begin("aligned edges");
-  find_aligned();
 }
 
 void Generators::find_convex_solids() {
@@ -210,53 +202,6 @@ void Generators::find_outlines() {
           });
         });
     if (convex) outlines_[i] = std::move(outline);
-  }
-}
-
-void Generators::find_aligned() {
-  const Scene& s = *scene_;
-  struct Direction {
-    std::array<double, 3> unit;  // up to signs
-    int ridge;
-  };
-  std::vector<Direction> all;
-  for (std::size_t r = 0; r < ridges_.size(); ++r) {
-    hear_stop();
-    const auto& p = ridges_[r].points;
-    const Point d = s.point(p[1]) - s.point(p[0]);
-    const double size = d.cwiseAbs().maxCoeff();
-    const Point u = (d / size).normalized().cwiseAbs();
-    all.push_back({{u[0], u[1], u[2]}, static_cast<int>(r)});
-  }
-  std::sort(all.begin(), all.end(), [](const Direction& a, const Direction& b) {
-    hear_stop();
-    return a.unit < b.unit;
-  });
-  // A component of magnitude at most 1 after a difference, a quotient and a norm.
-  constexpr double kWidth = 32 * kUnit;
-  const auto solid_in_common = [&](const Ridge& a, const Ridge& b) {
-    return std::any_of(a.objects.begin(), a.objects.end(), [&](std::int32_t o) {
-      return convex_solid(o) &&
-             std::find(b.objects.begin(), b.objects.end(), o) != b.objects.end();
-    });
-  };
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    for (std::size_t j = i + 1; j < all.size(); ++j) {
-      hear_stop();
-      if (all[j].unit[0] - all[i].unit[0] > kWidth) break;
-      if (std::abs(all[j].unit[1] - all[i].unit[1]) > kWidth ||
-          std::abs(all[j].unit[2] - all[i].unit[2]) > kWidth) {
-        continue;
-      }
-      const Ridge& a = ridges_[all[i].ridge];
-      const Ridge& b = ridges_[all[j].ridge];
-      const auto direction = [&](const Ridge& r) {
-        return ring_difference(s.point(r.points[1]), s.point(r.points[0]));
-      };
-      if (solid_in_common(a, b) || !parallel(direction(a), direction(b))) continue;
-      aligned_ = true;
-      return;
-    }
   }
 }
 

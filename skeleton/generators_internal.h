@@ -155,10 +155,6 @@ class Generators {
     return outlines_[facet];
   }
 
-  /// Two ridges of different solids (of one that is not convex) are parallel: lines may
-  /// touch more than what holds them, far beyond it, and each is asked.
-  [[nodiscard]] bool aligned() const { return aligned_; }
-
   [[nodiscard]] const Bvh& face_tree() const { return face_tree_; }
   /// What blocks lines as one: a convex solid of few faces, told by its object, or a face
   /// of anything else, told by its complement (~face).
@@ -207,7 +203,6 @@ class Generators {
   [[nodiscard]] bool inside_facet(int point, int facet,
                                   std::span<const std::int32_t> faces) const;
   void find_inside(const Request& request, Stage& stage);
-  void find_aligned();
 
   const Scene* scene_;
   EventMode events_;
@@ -224,7 +219,6 @@ class Generators {
   std::vector<std::int32_t> star_of_point_;
   std::vector<std::uint8_t> inside_;
   int inside_count_ = 0;
-  bool aligned_ = false;
   std::vector<std::uint8_t> convex_;
   std::vector<std::vector<std::array<std::int32_t, 2>>> outlines_;
   std::vector<std::int32_t> object_starts_, object_ids_;
