@@ -23,7 +23,7 @@ std::uint32_t add_node_at(const Generators& g, const Point& v, const ExactPoint&
   const bool told = c.ends[0] || c.ends[1];
   const std::uint32_t node =
       out.add_node(c.kind, c.self, c.end, c.generators, {v, rounded(x)},
-                   c.end && !told ? arc_ends : c.ends);
+                   (c.end && !told) || ends_one_arc(c.kind) ? arc_ends : c.ends);
   out.special[node] = 1;
   return node;
 }
@@ -327,7 +327,7 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
         contacts_along(g, scan, {start, x}, node.end, view.grazes[id] != 0);
     if (all.generators.empty()) return;
     if (all.kind == node.kind && all.kind != NodeKind::Degenerate) {
-      if (!g.polygon()) return;
+      if (!g.polygon() || ends_one_arc(all.kind)) return;
       const bool turned = view.pool[node.first_generator] != all.generators.front();
       node.ends = {all.ends[turned ? 1 : 0], all.ends[turned ? 0 : 1]};
       node.end = all.end;
@@ -335,7 +335,7 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     }
     node.kind = all.kind;
     node.self = all.self;
-    if (g.polygon()) {
+    if (g.polygon() && !ends_one_arc(all.kind)) {
       node.ends = all.ends;
       node.end = all.end;
     }

@@ -327,6 +327,7 @@ void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
   }
   if (all.generators.empty()) return;
   const bool nothing_new = all.kind == node.kind && all.kind != NodeKind::Degenerate;
+  if (nothing_new && ends_one_arc(all.kind)) return;
   if (nothing_new && g_.polygon()) {
     const bool turned = node.generators[0] != all.generators.front();
     node.ends = {all.ends[turned ? 1 : 0], all.ends[turned ? 0 : 1]};
@@ -336,8 +337,12 @@ void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
   if (nothing_new && !all.end) return;
   node.kind = all.kind;
   node.self = all.self;
-  node.end = all.end;
-  node.ends = all.ends;
+  if (!ends_one_arc(all.kind)) {
+    node.end = all.end;
+    node.ends = all.ends;
+  } else if (node.generators[0] != all.generators.front()) {
+    std::swap(node.ends[0], node.ends[1]);
+  }
   node.rising = all.second;
   node.all = all.generators;
   node.line = std::move(all.line);

@@ -216,18 +216,86 @@ std::vector<std::int32_t> objects_of(const Generators& g, const Generator& x) {
   return {scene.facets()[x.id].object};
 }
 
-// Two contacts on one and the same object.
+// Two contacts on one and the same object: all generators of each are on it alone.
 bool two_on_one_object(const Generators& g,
                        const std::vector<std::vector<Generator>>& groups) {
   std::vector<std::int32_t> single;
   for (const auto& group : groups) {
-    if (group.empty()) continue;
-    const auto o = objects_of(g, group.front());
+    std::vector<std::int32_t> o;
+    for (const Generator& x : group) {
+      const auto more = objects_of(g, x);
+      o.insert(o.end(), more.begin(), more.end());
+    }
+    sort_unique(o);
     if (o.size() != 1) continue;
     if (std::find(single.begin(), single.end(), o[0]) != single.end()) return true;
     single.push_back(o[0]);
   }
   return false;
+}
+
+// The facets whose inside the line crosses at a contact, ascending; not those with an
+// edge or a corner there.
+std::vector<std::int32_t> crossed_facets(const Generators& g, const LineScan& scan,
+                                         int contact) {
+  const Scene& scene = g.scene();
+  std::vector<std::int32_t> facets;
+  std::vector<std::int32_t> met_at_border;
+  for (const Touch& t : scan.touches(contact)) {
+    const int facet = scene.faces()[t.face].facet;
+    const int n = static_cast<int>(scene.face_points(t.face).size());
+    const auto is_edge = [&](int side) { return scene.edge_of_side(t.face, side) >= 0; };
+    const bool at_border = t.kind == TouchKind::EdgeOn ||
+                           (t.kind == TouchKind::Edge && is_edge(t.index)) ||
+                           (t.kind == TouchKind::Corner &&
+                            (is_edge(t.index) || is_edge((t.index + n - 1) % n)));
+    (at_border ? met_at_border : facets).push_back(facet);
+  }
+  sort_unique(facets);
+  std::erase_if(facets, [&](std::int32_t f) {
+    return std::find(met_at_border.begin(), met_at_border.end(), f) !=
+           met_at_border.end();
+  });
+  return facets;
+}
+
+// Lines of an EV or EEE arc, without further contacts: the last of them is where one of
+// its outer edges enters a face (Pierce), or two edges at its corner line up (Saddle).
+// `crossed`: of the contacts.  The corner of an EV arc is listed first, then the face.
+void name_end_of_arc(const std::vector<std::vector<Generator>>& groups,
+                     const std::vector<std::vector<std::int32_t>>& crossed,
+                     NodeContacts& node) {
+  if (node.kind != NodeKind::Degenerate || groups.size() < 2 || groups.size() > 3) return;
+  std::vector<Generator> line;
+  for (const auto& group : groups) {
+    if (group.size() != 1) return;
+    line.push_back(group[0]);
+  }
+  const std::size_t n = line.size();
+  const auto is = [&](std::size_t i, GeneratorKind kind) { return line[i].kind == kind; };
+  constexpr auto e = GeneratorKind::Edge;
+  const bool ev = n == 2 && is(0, e) != is(1, e) && !is(0, GeneratorKind::Face) &&
+                  !is(1, GeneratorKind::Face);
+  const bool eee = n == 3 && is(0, e) && is(1, e) && is(2, e);
+  if (!ev && !eee) return;
+  std::size_t faces = 0;
+  std::size_t at = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    faces += crossed[i].size();
+    if (!crossed[i].empty()) at = i;
+  }
+  if (faces > 1 || (faces == 0 && !ev)) return;
+  if (faces == 1 && (!is(at, e) || (at > 0 && at + 1 < n))) return;
+  node.kind = faces == 0 ? NodeKind::Saddle : NodeKind::Pierce;
+  node.end = false;
+  node.ends = {};
+  if (faces == 1) {
+    line.insert(line.begin() + (at == 0 ? 1 : static_cast<std::ptrdiff_t>(at)),
+                {GeneratorKind::Face, crossed[at][0]});
+  }
+  node.turned = ev ? is(0, e) : line.back() < line.front();
+  if (node.turned) std::reverse(line.begin(), line.end());
+  node.generators = std::move(line);
 }
 
 NodeContacts node_of(const Generators& g,
@@ -347,15 +415,18 @@ std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
 
 NodeContacts contacts_between(const Generators& g, const LineScan& scan) {
   std::vector<std::vector<Generator>> groups;
+  std::vector<std::vector<std::int32_t>> crossed;
   bool free = true;
   for (int i = 0; i < scan.size(); ++i) {
     if (!meets_segment(scan, i)) continue;
     free = free && !blocks_segment(scan, i);
     groups.push_back(generators_of(g, scan, i));
+    crossed.push_back(crossed_facets(g, scan, i));
   }
   NodeContacts node = node_of(g, groups);
   node.end = !free;
   if (!free && g.polygon()) node.ends = blocked_ends(g, scan).value_or(node.ends);
+  name_end_of_arc(groups, crossed, node);
   return node;
 }
 
@@ -387,11 +458,17 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   if (!stops_at[0]) first = go_on(first, -1);
   if (!stops_at[1]) last = go_on(last, 1);
   std::vector<std::vector<Generator>> groups;
-  for (int c = first; c <= last; ++c) groups.push_back(generators_of(g, scan, c));
+  std::vector<std::vector<std::int32_t>> crossed;
+  for (int c = first; c <= last; ++c) {
+    groups.push_back(generators_of(g, scan, c));
+    crossed.push_back(crossed_facets(g, scan, c));
+  }
   NodeContacts node = node_along(g, groups);
+  name_end_of_arc(groups, crossed, node);
   node.segment = {rounded(along(line[0], line[1], scan.from(first))),
                   rounded(along(line[0], line[1], scan.to(last)))};
   if (node.turned) std::swap(node.segment[0], node.segment[1]);
+  if (ends_one_arc(node.kind)) return node;
   if (node.kind == NodeKind::Degenerate) node.line = name_of_line(line);
   // A line along a face that ends where the face does.
   const bool stops = scan.blocked(first) || scan.blocked(last);

@@ -38,6 +38,12 @@ namespace sightline::internal {
 [[nodiscard]] std::optional<std::array<bool, 2>> blocked_ends(
     const Generators& generators, const LineScan& scan);
 
+/// A line that touches no more than the other lines of the arc that ends there; what the
+/// end contacts are is the arc's to say.
+[[nodiscard]] inline bool ends_one_arc(NodeKind kind) {
+  return kind == NodeKind::Pierce || kind == NodeKind::Saddle;
+}
+
 /// A node as its contacts make it.
 struct NodeContacts {
   NodeKind kind = NodeKind::Degenerate;

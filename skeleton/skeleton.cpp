@@ -41,8 +41,7 @@ void add_view(const VertexView& view, bool eee_follows, NodeJoiner& nodes,
       [&](std::size_t i) {
         const SkeletonNode& node = view.nodes[i];
         const bool by_arcs = node.kind == NodeKind::VEE || node.kind == NodeKind::EVE;
-        const bool once = node.kind == NodeKind::Saddle ||
-                          node.kind == NodeKind::Pierce || (!eee_follows && by_arcs);
+        const bool once = internal::ends_one_arc(node.kind) || (!eee_follows && by_arcs);
         const bool grazes = view.grazes[i] != 0;
         number[i] = once ? nodes.add(node, generators_of(node), grazes)
                          : nodes.join(node, generators_of(node), grazes, view.lines[i]);
