@@ -105,6 +105,8 @@ class EdgePairs {
   [[nodiscard]] std::array<bool, 2> ends_at(const Outer& outer, const EeeCurve& curve,
                                             const CurveCut& cut,
                                             const Stretch& stretch) const;
+  [[nodiscard]] Sign side_of_corner(const Outer& outer, const EeeCurve& curve,
+                                    const CurveCut& cut, int face, Sign f0) const;
   [[nodiscard]] bool ends_at_corner(const Outer& outer, const EeeCurve& curve,
                                     const CurveCut& cut, int corner, Sign f0) const;
   [[nodiscard]] bool may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,

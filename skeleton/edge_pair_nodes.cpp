@@ -88,30 +88,34 @@ std::array<bool, 2> EdgePairs::ends_at(const Outer& outer, const EeeCurve& curve
 bool EdgePairs::ends_at_corner(const Outer& outer, const EeeCurve& curve,
                                const CurveCut& cut, int corner, Sign f0) const {
   const Star& star = g_.stars()[g_.star_of_point(corner)];
-  if (!star.convex) return false;
+  return star.convex && std::all_of(star.faces.begin(), star.faces.end(), [&](int face) {
+           return side_of_corner(outer, curve, cut, face, f0) == Sign::Positive;
+         });
+}
+
+// On which side of a face at the corner of a cut the line's contact with an outer edge
+// is: the last edge, for a corner of the first; else the first.
+Sign EdgePairs::side_of_corner(const Outer& outer, const EeeCurve& curve,
+                               const CurveCut& cut, int face, Sign f0) const {
+  const PlaneSide& plane = g_.face_plane(face);
   const auto& o = outer.points;
-  return std::all_of(star.faces.begin(), star.faces.end(), [&](int face) {
-    const PlaneSide& plane = g_.face_plane(face);
-    if (cut.kind != CurveCutKind::Far) {
-      const PlaneValues q = plane_values(plane, o.at(o.q[0]), o.at(o.q[1]));
-      if (q.sign0 == q.sign1) return q.sign0 == Sign::Positive;
-      // Times F0 - F1, which has the sign of F0.
-      const BoundedLinear l =
-          curve.at_last_edge(q.at0, q.at1, plane_points(scene_, face));
-      return (cut.kind == CurveCutKind::Start ? l.sign0 : l.sign1) * f0 == Sign::Positive;
-    }
-    const PlaneValues p = plane_values(plane, o.at(o.p[0]), o.at(o.p[1]));
-    if (p.sign0 == p.sign1) return p.sign0 == Sign::Positive;
-    if (p.sign0 == Sign::Zero) return p.sign1 == Sign::Positive;
-    if (p.sign1 == Sign::Zero) return p.sign0 == Sign::Positive;
-    CurveCut root{CurveCutKind::OnPlane,      false, scene_.faces()[face].facet,
-                  plane_points(scene_, face), 0,     1};
-    enclose_root({p.at0.value, p.at1.value, p.at0.error, p.at1.error, p.sign0, p.sign1},
-                 root);
-    const Sign order = curve.compare(cut, root);
-    return (order == Sign::Negative ? p.sign0 : p.sign1) == Sign::Positive &&
-           order != Sign::Zero;
-  });
+  if (cut.kind == CurveCutKind::Start || cut.kind == CurveCutKind::End) {
+    const PlaneValues q = plane_values(plane, o.at(o.q[0]), o.at(o.q[1]));
+    if (q.sign0 == q.sign1) return q.sign0;
+    // Times F0 - F1, which has the sign of F0.
+    const BoundedLinear l = curve.at_last_edge(q.at0, q.at1, plane_points(scene_, face));
+    return (cut.kind == CurveCutKind::Start ? l.sign0 : l.sign1) * f0;
+  }
+  const PlaneValues p = plane_values(plane, o.at(o.p[0]), o.at(o.p[1]));
+  if (p.sign0 == p.sign1) return p.sign0;
+  if (p.sign0 == Sign::Zero) return p.sign1;
+  if (p.sign1 == Sign::Zero) return p.sign0;
+  CurveCut root{CurveCutKind::OnPlane,      false, scene_.faces()[face].facet,
+                plane_points(scene_, face), 0,     1};
+  enclose_root({p.at0.value, p.at1.value, p.at0.error, p.at1.error, p.sign0, p.sign1},
+               root);
+  const Sign order = curve.compare(cut, root);
+  return order == Sign::Zero ? Sign::Zero : order == Sign::Negative ? p.sign0 : p.sign1;
 }
 
 FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int middle,
@@ -261,6 +265,11 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
   if (corner >= 0) {
     const Star& star = g_.stars()[g_.star_of_point(corner)];
     if (!star.convex || star.touched || star.in_plane_only) return true;
+    // In the plane of a face there.
+    for (const int face : star.faces) {
+      if (side_of_corner(outer, curve, cut, face, Sign::Positive) == Sign::Zero)
+        return true;
+    }
   }
   if (cut.kind == CurveCutKind::OnFirst || cut.kind == CurveCutKind::OnPlane) {
     if (carriers_.touched_facets[cut.feature] != 0) return true;

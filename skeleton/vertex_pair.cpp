@@ -393,7 +393,9 @@ void VertexViewer::add_unsupported_general(Pair& pair) {
         for (const auto& s : star_->sectors) {
           const auto a = static_cast<std::size_t>(s.from);
           const auto b = static_cast<std::size_t>(s.to);
-          if ((a == i && b == j) || (a == j && b == i)) facet = s.facet;
+          if ((a != i || b != j) && (a != j || b != i)) continue;
+          if (facet >= 0 && facet != s.facet) pair.mild = true;  // two in one place
+          facet = s.facet;
         }
         t.cut = make_cut(facet < 0 ? CutKind::Saddle : CutKind::Support, facet,
                          {point_, rays[i], rays[j]}, x0, x1);
