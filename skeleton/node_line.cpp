@@ -66,22 +66,6 @@ Rational ratio(const Surd& x, const Surd& y, const Ring& d,
   return rational(x.a * y.a - x.b * y.b * d) / rational(y.a * y.a - y.b * y.b * d);
 }
 
-Points points_of(const ExactLine& line) {
-  const ExactLine::Coordinates& c = line.coordinates();
-  const auto root = rational_root(c.radicand);
-  int axis = 0;
-  while (internal::is_zero(c.d[axis], c.radicand)) ++axis;
-  ExactPoint way, moment;
-  for (int i = 0; i < 3; ++i) {
-    way[i] = ratio(c.d[i], c.d[axis], c.radicand, root);
-    moment[i] = ratio(c.m[i], c.d[axis], c.radicand, root);
-  }
-  const Rational size = exact_dot(way, way);
-  ExactPoint x = exact_cross(way, moment);
-  for (Rational& coordinate : x) coordinate /= size;
-  return {x, ExactPoint{x[0] + way[0], x[1] + way[1], x[2] + way[2]}};
-}
-
 class NodeLines {
  public:
   NodeLines(const Scene& scene, std::span<const Generator> generators)
@@ -251,6 +235,22 @@ class NodeLines {
 };
 
 }  // namespace
+
+std::array<ExactPoint, 2> points_of(const ExactLine& line) {
+  const ExactLine::Coordinates& c = line.coordinates();
+  const auto root = rational_root(c.radicand);
+  int axis = 0;
+  while (internal::is_zero(c.d[axis], c.radicand)) ++axis;
+  ExactPoint way, moment;
+  for (int i = 0; i < 3; ++i) {
+    way[i] = ratio(c.d[i], c.d[axis], c.radicand, root);
+    moment[i] = ratio(c.m[i], c.d[axis], c.radicand, root);
+  }
+  const Rational size = exact_dot(way, way);
+  ExactPoint x = exact_cross(way, moment);
+  for (Rational& coordinate : x) coordinate /= size;
+  return {x, ExactPoint{x[0] + way[0], x[1] + way[1], x[2] + way[2]}};
+}
 
 std::optional<NodeLine> line_of_node(const Scene& scene, const Skeleton& skeleton,
                                      const SkeletonNode& node) {

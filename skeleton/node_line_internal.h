@@ -18,6 +18,9 @@ struct NodeLine {
   std::optional<ExactLine> irrational;
 };
 
+/// Two different points of a rational line, in the order of its orientation.
+[[nodiscard]] std::array<ExactPoint, 2> points_of(const ExactLine& line);
+
 /// The line that touches all the generators; nullopt where they leave it a choice
 /// (Saddle nodes, and degenerate ones).  Of two lines through
 /// the same edges it is the one nearer to the node's rounded segment.

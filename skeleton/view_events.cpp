@@ -16,11 +16,14 @@
 #include "skeleton/eee_curve_internal.h"
 #include "skeleton/far_pieces_internal.h"
 #include "skeleton/node_contacts_internal.h"
+#include "skeleton/node_line_internal.h"
 
 namespace sightline {
 namespace {
 
 using internal::along;
+using internal::exact_cross;
+using internal::exact_difference;
 using internal::exact_orient;
 using internal::exact_point;
 using internal::ExactPoint;
@@ -333,10 +336,41 @@ struct ViewEvents::Impl {
                   [&] { return plane_sign_at(line, path.line(), end); });
   }
 
+  // A rational line may lie in faces and meet corners: the contacts of its parts say, as
+  // for EV.
+  [[nodiscard]] Answer reaches_by_contacts(const Path& path, const Triple& triple,
+                                           const ExactLine& line, int side) const {
+    const std::array<ExactPoint, 2> at = internal::points_of(line);
+    const ExactPoint way = exact_difference(at[1], at[0]);
+    const auto point_on = [&](const LineThrough& m) {
+      const ExactPoint from = exact_point(m.from);
+      const ExactPoint along_m = exact_difference(exact_point(m.to), from);
+      const ExactPoint turn = exact_cross(way, along_m);
+      const ExactPoint off = exact_cross(exact_difference(from, at[0]), along_m);
+      int k = 0;
+      while (turn[k] == 0) ++k;  // not parallel
+      return along(at[0], at[1], off[k] / turn[k]);
+    };
+    const auto scan = [&](const ExactPoint& p, const ExactPoint& q) {
+      return LineScan(scene, faces_near_line(generators, rounded(p), rounded(q)), p, q);
+    };
+    const ExactPoint first = point_on(triple.lines[0]);
+    const ExactPoint last = point_on(triple.lines[2]);
+    const LineScan between = scan(first, last);
+    const std::array<bool, 2> ends{triple.ends[0], triple.ends[2]};
+    const bool as_arc = ends == std::array<bool, 2>{}
+                            ? is_free(between)
+                            : blocked_ends(generators, between) == ends;
+    const ExactPoint x = point_on(path.line());
+    const bool free = as_arc && free_between(scan(side == 1 ? last : first, x));
+    return free ? Answer::Yes : Answer::No;
+  }
+
   // The line grazes or ends at the three edges as those of the arc do, and crosses no
   // face's inside on its way.
   [[nodiscard]] Answer reaches_exactly(const Path& path, const Triple& triple,
                                        const ExactLine& line, int side) const {
+    if (line.is_rational()) return reaches_by_contacts(path, triple, line, side);
     for (int i = 0; i < 3; ++i) {
       const internal::Ridge* r = triple.ridges[i];
       // Of an edge with a ridge for each of its gaps the right one is not known here.
