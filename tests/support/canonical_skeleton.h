@@ -13,7 +13,8 @@ namespace sightline::testing {
 
 using Coordinates = std::array<double, 3>;
 
-/// A vertex by its point, an edge by its two ends, a face by all its corners; sorted.
+/// A vertex by its point, an edge by its two ends, a facet by the ends of all
+/// its edges; sorted.
 struct GeneratorKey {
   char kind;  ///< 'V', 'E' or 'F'; 'v' or 'e' where it is an end contact
   std::vector<Coordinates> points;

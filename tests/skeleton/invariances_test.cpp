@@ -1,0 +1,90 @@
+// What a scene is written down as changes nothing: the order of its objects, faces and
+// corners, axes, shears, translations and scales that are exact in doubles, edges and
+// facets cut at points on them, faces repeated within their object.
+// docs/degenerate_scenes.md, "What is invariant", says so.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "linespace/mesh_io.h"
+#include "tests/support/answers.h"
+
+namespace sightline {
+namespace {
+
+using testing::Answers;
+using testing::Crowd;
+using testing::Questions;
+using testing::Variant;
+
+PolygonSoup read(const std::string& file) {
+  return read_mesh(std::string(SIGHTLINE_TEST_DATA "/skeleton/invariant/") + file);
+}
+
+Point same(const Point& p) { return p; }
+
+Variant itself(PolygonSoup soup) { return {"itself", std::move(soup), same, same}; }
+
+/// Two files that hold the same scene, or one that is an image of the other.
+void expect_alike(const std::string& file, Variant variant) {
+  SCOPED_TRACE(file);
+  const PolygonSoup soup = read(file);
+  const Questions q = testing::questions_for(soup, 1);
+  EXPECT_EQ(testing::difference(testing::answers_of(itself(soup), q, false),
+                                testing::answers_of(variant, q, false)),
+            "");
+}
+
+void expect_alike(const std::string& file, const std::string& other) {
+  expect_alike(file, itself(read(other)));
+}
+
+TEST(Invariances, OrderOfObjects) {
+  expect_alike("order_sheet_a.obj", "order_sheet_b.obj");
+  expect_alike("order_wedges_a.obj", "order_wedges_b.obj");
+}
+
+TEST(Invariances, Shear) {
+  expect_alike("shear_base.obj", {"sheared", read("shear_sheared.obj"),
+                                  [](const Point& p) -> Point {
+                                    return {p[0], p[1] + p[0], p[2]};
+                                  },
+                                  [](const Point& p) -> Point {
+                                    return {p[0], p[1] - p[0], p[2]};
+                                  }});
+}
+
+TEST(Invariances, Translation) {
+  expect_alike("translation_base.obj", {"moved", read("translation_moved.obj"),
+                                        [](const Point& p) -> Point {
+                                          return {p[0] + 0x1p40, p[1], p[2]};
+                                        },
+                                        [](const Point& p) -> Point {
+                                          return {p[0] - 0x1p40, p[1], p[2]};
+                                        }});
+}
+
+TEST(Invariances, EdgesCutInTheMiddle) {
+  expect_alike("midpoints_one_base.obj", "midpoints_one_cut.obj");
+  expect_alike("midpoints_two_base.obj", "midpoints_two_cut.obj");
+}
+
+TEST(Invariances, SheetCutAlongItsDiagonal) {
+  expect_alike("sheet_quad.obj", "sheet_two_triangles.obj");
+}
+
+TEST(Invariances, GroundInNinePieces) {
+  expect_alike("slab_plain.obj", "slab_conforming.obj");
+}
+
+// A small share of invariances_soak_test.cpp: about three seconds a scene.
+TEST(Invariances, CrowdedScenesInEveryWriting) {
+  EXPECT_EQ(testing::count_alike(Crowd::Overlapping, 2), 10);
+  EXPECT_EQ(testing::count_alike(Crowd::Touching, 1), 10);
+  EXPECT_EQ(testing::count_alike(Crowd::RepeatedFaces, 1), 10);
+  EXPECT_EQ(testing::count_alike(Crowd::NonManifold, 1), 10);
+}
+
+}  // namespace
+}  // namespace sightline
