@@ -369,11 +369,10 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     arc.range = {rounded_parameter(scene_, {pair.e0, pair.e1}, i.from),
                  rounded_parameter(scene_, {pair.e0, pair.e1}, i.to)};
     const auto node = [&](const Cut& cut) {
-      const bool pierced = is_pierced_at(pair, cut);
-      if (pierced && !mild && star_->convex && cut.kind == CutKind::Pierce) {
-        return pierced_node(pair, cut, out);
-      }
-      if (!mild && !pierced) return end_node(pair, cut, arc.ends, out);
+      // Where the edge enters a face, a corner that is one cone touches nothing else.
+      const bool simple =
+          !is_pierced_at(pair, cut) || (star_->convex && cut.kind == CutKind::Pierce);
+      if (!mild && simple) return end_node(pair, cut, arc.ends, out);
       list_faces(pair);
       return contact_node(g_, *star_, r, pair.lists.faces, cut, arc.ends, out);
     };
@@ -472,18 +471,6 @@ bool VertexViewer::is_pierced_at(const Pair& pair, const Cut& cut) const {
                      [&](const Cut& at) {
                        return compare(scene_, {pair.e0, pair.e1}, at, cut) == Sign::Zero;
                      });
-}
-
-// The node where the edge enters a face: the line ends there, and touches nothing else
-// between, since no other cut is there.
-std::uint32_t VertexViewer::pierced_node(const Pair& pair, const Cut& cut,
-                                         VertexView& out) const {
-  const Generator generators[] = {{GeneratorKind::Vertex, point_},
-                                  {GeneratorKind::Edge, pair.r->edge}};
-  const bool self = own_objects_.size() == 1 && own_objects_ == pair.r->objects;
-  const Rational s = exact_parameter(scene_, {pair.e0, pair.e1}, cut);
-  const ExactPoint x = along(exact_point(pair.e0), exact_point(pair.e1), s);
-  return out.add_node(NodeKind::Degenerate, self, true, generators, {at_, rounded(x)});
 }
 
 std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,

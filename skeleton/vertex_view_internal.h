@@ -115,7 +115,6 @@ class VertexViewer {
                                      std::span<const CutInterval> open) const;
   [[nodiscard]] bool pierced_inside(Pair& pair, std::span<const CutInterval> open) const;
   [[nodiscard]] bool is_pierced_at(const Pair& pair, const Cut& cut) const;
-  std::uint32_t pierced_node(const Pair& pair, const Cut& cut, VertexView& out) const;
   std::uint32_t end_node(const Pair& pair, const Cut& cut,
                          const std::array<bool, 2>& ends, VertexView& out) const;
   void add_line_ups(VertexView& out);  // EVE

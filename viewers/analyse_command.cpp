@@ -396,7 +396,7 @@ void print_summary(const Json& report, const fs::path& folder) {
 
 Scene load(Session& session, const AnalyseOptions& options, ReportFolder& folder) {
   if (!options.scene.empty()) return read_scene(session, options.scene, options.format);
-  const fs::path file = folder.announce(kBuiltinSceneName);
+  const fs::path file = folder.announce(std::string(kBuiltinSceneName));
   write_whole(file, builtin_scene());
   PolygonSoup soup = read_mesh(file.string());
   soup.source = std::string(kBuiltinSceneName) + " (built in)";
