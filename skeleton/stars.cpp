@@ -56,6 +56,32 @@ void add_wedges(const Scene& s, int f, int p, std::vector<Wedge>& wedges) {
   }
 }
 
+// The solids around the star are locally one convex cone.
+bool is_one_cone(const Generators& g, const Star& star, std::span<const Wedge> wedges) {
+  const Scene& s = g.scene();
+  const auto edges = s.edges_at(star.point);
+  bool convex = std::all_of(star.faces.begin(), star.faces.end(),
+                            [&](int f) { return g.solid_behind(f); }) &&
+                std::all_of(edges.begin(), edges.end(),
+                            [&](int e) { return s.edges()[e].kind == EdgeKind::Convex; });
+  // Locally convex along every edge and one fan: check it is one cone.
+  for (const int f : star.faces) {
+    if (!convex) break;
+    const int facet = s.faces()[f].facet;
+    for (const Wedge& w : wedges) {
+      if (w[2] == facet) continue;
+      for (int end = 0; end < 2 && convex; ++end) {
+        if (g.face_plane(f)(s.point(w[end])) != Sign::Positive) continue;
+        // Rays shared with the facet itself may rise above another of its triangles.
+        convex = std::any_of(wedges.begin(), wedges.end(), [&](const Wedge& other) {
+          return other[2] == facet && (other[0] == w[end] || other[1] == w[end]);
+        });
+      }
+    }
+  }
+  return convex;
+}
+
 }  // namespace
 
 void Generators::find_stars(const Request& request, Stage& stage) {
@@ -141,26 +167,7 @@ Star Generators::star_of(int p) const {
   for (const auto& w : wedges) star.sectors.push_back({ray(w[0]), ray(w[1]), w[2]});
 
   star.touched = !foreign.empty() || objects_at(p).size() > 1;
-  bool convex = !star.touched && std::all_of(star.faces.begin(), star.faces.end(),
-                                             [&](int f) { return solid_behind(f); });
-  for (const int e : s.edges_at(p))
-    convex = convex && s.edges()[e].kind == EdgeKind::Convex;
-  // Locally convex along every edge and one fan: check it is one cone.
-  for (const int f : star.faces) {
-    if (!convex) break;
-    for (const auto& w : wedges) {
-      if (w[2] == s.faces()[f].facet) continue;
-      for (int end = 0; end < 2 && convex; ++end) {
-        if (face_planes_[f](s.point(w[end])) != Sign::Positive) continue;
-        // Rays shared with the facet itself may rise above another of its triangles.
-        convex = std::any_of(wedges.begin(), wedges.end(), [&](const auto& other) {
-          return other[2] == s.faces()[f].facet &&
-                 (other[0] == w[end] || other[1] == w[end]);
-        });
-      }
-    }
-  }
-  star.convex = convex;
+  star.convex = !star.touched && is_one_cone(*this, star, wedges);
   return star;
 }
 
