@@ -143,6 +143,8 @@ class Scene {
   [[nodiscard]] std::span<const Point> points() const { return points_; }
   [[nodiscard]] const Point& point(int id) const { return points_[id]; }
 
+  /// Without copies: of a face that one object lists more than once, with the same
+  /// corners in the same cyclic order, the first alone.
   [[nodiscard]] std::span<const Face> faces() const { return faces_; }
   /// Point ids of face f, counter-clockwise seen from its front.
   [[nodiscard]] std::span<const int> face_points(int f) const {
@@ -179,8 +181,8 @@ class Scene {
   /// there is none.
   [[nodiscard]] int object_named(const std::string& name) const;
   /// Face ids, ascending, of the object or group of that name, or of `#i-j`: the polygons
-  /// i to j of the file, both included.  Throws InvalidInput when there is no such name
-  /// or no such polygon.
+  /// i to j of the file, both included; of a copy, the face that it repeats.  Throws
+  /// InvalidInput when there is no such name or no such polygon.
   [[nodiscard]] std::vector<int> faces_named(const std::string& name) const;
 
   [[nodiscard]] const PolygonSoup& soup() const { return soup_; }
