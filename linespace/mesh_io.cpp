@@ -10,6 +10,7 @@
 #include <filesystem>
 
 #include "linespace/input_file_internal.h"
+#include "linespace/mesh_io_gltf_internal.h"
 #include "linespace/mesh_io_internal.h"
 
 namespace sightline {
@@ -244,6 +245,25 @@ PolygonSoup read_mesh(const std::string& path, const Request& request,
   soup.source = name;
   if (soup.polygons.empty()) refuse(name, "no faces");
   return soup;
+}
+
+std::vector<std::string> files_beside(const std::string& path) {
+  std::vector<std::string> files;
+#ifdef SIGHTLINE_HAS_TINYGLTF
+  const std::string extension = internal::extension_of(path);
+  if (extension != "gltf" && extension != "glb") return files;
+  try {
+    const std::string bytes = internal::load_file(path);
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    for (const std::string& file :
+         internal::buffer_files(internal::check_gltf(path, bytes))) {
+      files.push_back((folder / file).string());
+    }
+  } catch (const InvalidInput&) {
+    // read_mesh says why.
+  }
+#endif
+  return files;
 }
 
 std::vector<std::string> readable_extensions() {

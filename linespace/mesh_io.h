@@ -44,6 +44,10 @@ namespace sightline {
 [[nodiscard]] PolygonSoup read_mesh(const std::string& path, const Request& request = {},
                                     const std::string& format = {});
 
+/// Files that read_mesh would read besides this one: the buffers of glTF.  None where it
+/// would refuse the file.
+[[nodiscard]] std::vector<std::string> files_beside(const std::string& path);
+
 /// Extensions that read_mesh knows in this build, in lower case, without dot, sorted.
 [[nodiscard]] std::vector<std::string> readable_extensions();
 

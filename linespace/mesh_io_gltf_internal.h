@@ -26,6 +26,9 @@ struct CheckedGltf {
 /// are not read here, instances, skins, compressed meshes.
 [[nodiscard]] CheckedGltf check_gltf(const std::string& path, std::string_view bytes);
 
+/// The buffers of a checked file that are files of their own, named from its folder.
+[[nodiscard]] std::vector<std::string> buffer_files(const CheckedGltf& checked);
+
 /// The linear part of a transformation with the rounding of single precision taken out
 /// of what it would skew: an entry below 2^-21 of the largest of its row and of its
 /// column becomes 0; if then all entries are within 2^-21 of 0, 1 or -1, they become

@@ -359,4 +359,34 @@ CheckedGltf check_gltf(const std::string& path, std::string_view bytes) {
   return checked;
 }
 
+namespace {
+
+// "my%20buffer.bin" is "my buffer.bin".
+std::string without_escapes(std::string_view uri) {
+  constexpr std::string_view kDigits = "0123456789abcdef0123456789ABCDEF";
+  const auto digit = [&](std::size_t i) {
+    const std::size_t at = i < uri.size() ? kDigits.find(uri[i]) : std::string_view::npos;
+    return at == std::string_view::npos ? -1 : static_cast<int>(at % 16);
+  };
+  std::string text;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const bool escaped = uri[i] == '%' && digit(i + 1) >= 0 && digit(i + 2) >= 0;
+    text += escaped ? static_cast<char>(16 * digit(i + 1) + digit(i + 2)) : uri[i];
+    if (escaped) i += 2;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> buffer_files(const CheckedGltf& checked) {
+  std::vector<std::string> files;
+  const Json root = Json::parse(checked.json);
+  for (const Json& buffer : root.value("buffers", Json::array())) {
+    const std::string uri = buffer.value("uri", "");
+    if (!uri.empty() && !uri.starts_with("data:")) files.push_back(without_escapes(uri));
+  }
+  return files;
+}
+
 }  // namespace sightline::internal

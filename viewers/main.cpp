@@ -4,6 +4,8 @@
 
 #include <new>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,14 @@ using namespace sightline::viewers;  // NOLINT(google-build-using-namespace)
 ExitStatus complain(ExitStatus status, const std::string& message) {
   tell_error(message);
   return status;
+}
+
+/// The system gave no further thread: within bounds on memory or processes, not our
+/// fault.  TBB tells it by these words only.
+bool is_lack_of_threads(const std::exception& error) {
+  const auto* const told = dynamic_cast<const std::system_error*>(&error);
+  return (told != nullptr && told->code() == std::errc::resource_unavailable_try_again) ||
+         std::string_view(error.what()).starts_with("pthread_create has failed");
 }
 
 /// Parses the command line and runs the command; every error becomes a line and a status.
@@ -49,6 +59,9 @@ ExitStatus run(Session& session, CLI::App& app,
   } catch (const std::bad_alloc&) {
     return complain(kOurFailure, "out of memory");
   } catch (const std::exception& error) {
+    if (is_lack_of_threads(error)) {
+      return complain(kOurFailure, "out of memory for threads; --threads takes fewer");
+    }
     return complain(kOurFailure, fmt::format("internal error: {}", error.what()));
   }
 }

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <mutex>
+#include <set>
 #include <streambuf>
 
 namespace sightline::viewers {
@@ -52,6 +54,8 @@ int open_retrying(const char* path, int flags, mode_t mode = 0) {
   return fd;
 }
 
+constexpr const char* kTemporaryName = ".sightline-";
+
 // Temporary files that exist, for remove_temporary_files: a slot holds the path of one
 // or is null.  Files beyond the last slot are only cleaned up by their owners.
 std::array<std::atomic<const char*>, 64> temporary_files;
@@ -75,17 +79,51 @@ void forget(const fs::path& path) {
   }
 }
 
+/// Removes temporary files whose writers are gone: nobody holds their locks.  Once for
+/// each folder.
+void remove_abandoned(const fs::path& folder) {
+  static std::mutex mutex;
+  static std::set<fs::path> done;
+  const std::scoped_lock lock(mutex);
+  if (!done.insert(folder).second) return;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& file = entry->path();
+    if (!file.filename().string().starts_with(kTemporaryName)) continue;
+    const int fd = open_retrying(file.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+    if (fd < 0) continue;
+    struct stat status {};
+    if (::fstat(fd, &status) == 0 && S_ISREG(status.st_mode) &&
+        ::flock(fd, LOCK_EX | LOCK_NB) == 0) {
+      ::unlink(file.c_str());
+    }
+    ::close(fd);
+  }
+}
+
+/// Locks a temporary file for as long as a descriptor of it is open; false when
+/// remove_abandoned was faster.  A file system without locks loses nothing but that.
+bool lock_temporary(int fd) {
+  struct stat status {};
+  const bool lost = ::flock(fd, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  return !lost && ::fstat(fd, &status) == 0 && status.st_nlink > 0;
+}
+
 /// A new file in the folder, hidden and of a name nobody else has, and its descriptor.
 /// The extension stays last: some writers judge by it.
 std::pair<fs::path, int> create_temporary(const fs::path& folder,
                                           const std::string& extension) {
   static std::atomic<int> count = 0;
   constexpr int kTries = 100;  // names left behind by a process of the same number
+  remove_abandoned(folder.empty() ? "." : folder);
   for (int i = 0; i < kTries; ++i) {
-    fs::path name = folder / fmt::format(".sightline-{}-{}{}", getpid(), ++count,
+    fs::path name = folder / fmt::format("{}{}-{}{}", kTemporaryName, getpid(), ++count,
                                          extension.size() < 20 ? extension : "");
     const int fd = open_retrying(name.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
-    if (fd >= 0 || errno != EEXIST) return {std::move(name), fd};
+    if (fd < 0 && errno != EEXIST) return {std::move(name), fd};
+    if (fd >= 0 && lock_temporary(fd)) return {std::move(name), fd};
+    if (fd >= 0) ::close(fd);
   }
   return {{}, -1};
 }
@@ -95,11 +133,14 @@ std::pair<fs::path, int> create_temporary(const fs::path& folder,
 /// Bytes on their way into a file descriptor; keeps the first error.
 class OutputFile::Buffer : public std::streambuf {
  public:
-  explicit Buffer(int fd, bool owned) : fd_(fd), owned_(owned) {
+  // The lock of a temporary file outlives close().
+  Buffer(int fd, bool owned, bool temporary)
+      : fd_(fd), lock_(temporary ? ::fcntl(fd, F_DUPFD_CLOEXEC, 0) : -1), owned_(owned) {
     setp(bytes_.data(), bytes_.data() + bytes_.size());
   }
   ~Buffer() override {
     if (owned_ && fd_ >= 0) ::close(fd_);
+    if (lock_ >= 0) ::close(lock_);
   }
   Buffer(const Buffer&) = delete;
   Buffer& operator=(const Buffer&) = delete;
@@ -140,6 +181,7 @@ class OutputFile::Buffer : public std::streambuf {
 
  private:
   int fd_;
+  int lock_;  // another descriptor of the same file
   bool owned_;
   int error_ = 0;
   std::array<char, 1 << 16> bytes_;
@@ -147,7 +189,7 @@ class OutputFile::Buffer : public std::streambuf {
 
 OutputFile::OutputFile(const fs::path& path) : path_(path) {
   if (path == "-") {
-    buffer_ = std::make_unique<Buffer>(STDOUT_FILENO, false);
+    buffer_ = std::make_unique<Buffer>(STDOUT_FILENO, false, false);
     stream_ = std::make_unique<std::ostream>(buffer_.get());
     return;
   }
@@ -180,7 +222,7 @@ OutputFile::OutputFile(const fs::path& path) : path_(path) {
   // A file that is replaced keeps its permissions, as far as we may give them.
   if (replaces_ && there.st_mode != 0) (void)::fchmod(fd, there.st_mode & 07777);
   if (replaces_) remember(temporary_);
-  buffer_ = std::make_unique<Buffer>(fd, true);
+  buffer_ = std::make_unique<Buffer>(fd, true, replaces_);
   stream_ = std::make_unique<std::ostream>(buffer_.get());
 }
 

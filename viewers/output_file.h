@@ -32,7 +32,8 @@ class WriteError : public std::runtime_error {
 /// - a symbolic link: the file that the link leads to is treated so; the link stays.
 /// - a device or a pipe: the bytes are written into it; it is never replaced.
 /// - "-": standard output.
-/// Destroyed without commit(), it leaves no temporary file behind.
+/// Destroyed without commit(), it leaves no temporary file behind.  One that a killed
+/// process left in a folder is removed by the next that writes a file there.
 class OutputFile {
  public:
   /// Opens it.  Throws OutputError when it cannot be opened, is a folder or a socket, or

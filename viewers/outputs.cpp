@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+
+#include "linespace/mesh_io.h"
 #include "viewers/json_text.h"
 
 namespace sightline::viewers {
@@ -12,16 +15,22 @@ Outputs::Outputs(const CommonOptions& options) {
   if (!options.vtk.empty()) vtk_.emplace(options.vtk);
 }
 
-void Outputs::refuse_input(const Named& output) {
-  throw OutputError(fmt::format("{}: {} is read; name another file", output.option,
-                                output.file->target().string()));
+void Outputs::refuse_if_read(const Named& output, const std::string& input) {
+  const auto refuse_if = [&](const std::string& file) {
+    if (!output.file->would_replace(file)) return;
+    throw OutputError(fmt::format("{}: {} is read; name another file", output.option,
+                                  output.file->target().string()));
+  };
+  refuse_if(input);
+  // The input is looked into only where there is something to replace.
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(output.file->target(), error)) return;
+  for (const std::string& file : files_beside(input)) refuse_if(file);
 }
 
 OutputFile& Outputs::add(const std::string& option, const std::string& file) {
   Named output{option, std::make_unique<OutputFile>(file)};
-  for (const std::string& input : inputs_) {
-    if (output.file->would_replace(input)) refuse_input(output);
-  }
+  for (const std::string& input : inputs_) refuse_if_read(output, input);
   for (const Named& other : files_) {
     if (output.file->collides_with(*other.file)) {
       throw OutputError(
@@ -34,9 +43,7 @@ OutputFile& Outputs::add(const std::string& option, const std::string& file) {
 
 void Outputs::protect(const std::string& file) {
   if (file.empty()) return;
-  for (const Named& output : files_) {
-    if (output.file->would_replace(file)) refuse_input(output);
-  }
+  for (const Named& output : files_) refuse_if_read(output, file);
   inputs_.push_back(file);
 }
 

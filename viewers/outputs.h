@@ -24,8 +24,8 @@ class Outputs {
   /// Opens the file that this option names.  Throws OutputError, also when another option
   /// names the same file, or when it is a protected one.
   OutputFile& add(const std::string& option, const std::string& file);
-  /// The file is read: throws OutputError when an output would replace it, under
-  /// whatever name.
+  /// The file is read, and files_beside() it: throws OutputError when an output would
+  /// replace one of them, under whatever name.
   void protect(const std::string& file);
 
   /// --json's file; null when there is none.
@@ -38,7 +38,7 @@ class Outputs {
     std::string option;
     std::unique_ptr<OutputFile> file;
   };
-  static void refuse_input(const Named& output);
+  static void refuse_if_read(const Named& output, const std::string& input);
 
   std::optional<OutputFolder> vtk_;
   std::vector<Named> files_;

@@ -1,7 +1,5 @@
 #include "fuzz_viewers.h"
 
-#include <stop_token>
-
 #include "linespace/mesh_io_internal.h"
 #include "tests/support/unhurried.h"
 #include "viewers/builtin_scene.h"
@@ -32,12 +30,9 @@ void run_transversals(const std::string& bytes) {
 }
 
 void run_visible(const std::string& bytes) {
-  std::stop_source stopped;
-  stopped.request_stop();
-  VisibilityRequest request;
-  request.stop = stopped.get_token();
-  request.threads = 1;
+  VisibilityRequest request;  // checks the question, and tries one segment
   request.samples = 1;
+  request.samples_only = true;
   refusing([&] {
     for (const auto& question : viewers::visibility_questions(JsonInput("fuzz", bytes))) {
       refusing([&] { (void)polygon_visibility(question, request); });

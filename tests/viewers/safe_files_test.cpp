@@ -32,6 +32,27 @@ TEST_F(SafeFiles, AnInputIsNeverOverwrittenUnderAnyName) {
   expect_told("$S transversals q.json --json q.json", 2, "is read");
 }
 
+TEST_F(SafeFiles, FilesThatTheInputNamesAreInputsToo) {
+  shell("cp \"$DATA\"/readable/escaped_uri.gltf \"$DATA/readable/my buffer.bin\" .");
+  const std::string before = file_contents(folder_ / "my buffer.bin");
+  expect_told("$S info escaped_uri.gltf --json 'my buffer.bin'", 2, "is read");
+  expect_told("$S skeleton ./escaped_uri.gltf -o './my buffer.bin'", 2, "is read");
+  EXPECT_EQ(file_contents(folder_ / "my buffer.bin"), before);
+}
+
+TEST_F(SafeFiles, WhatAKilledRunLeftTheNextRemoves) {
+  shell("mkdir vtk; touch .sightline-1-1.json vtk/.sightline-2-3.vtp .sightline");
+  shell("mkfifo .sightline-4-4; mkdir .sightline-5-5");
+  // A lock is held by whoever still writes there.
+  ASSERT_EQ(shell("exec 9>.sightline-3-1.json; flock 9; "
+                  "$S info $ROOM --json a --vtk vtk >/dev/null")
+                .status,
+            0);
+  EXPECT_EQ(names(), (Names{".sightline", ".sightline-3-1.json", ".sightline-4-4",
+                            ".sightline-5-5", "a", "vtk"}));
+  EXPECT_FALSE(names("vtk").contains(".sightline-2-3.vtp"));
+}
+
 TEST_F(SafeFiles, TwoOutputsNeverShareAName) {
   expect_told("$S skeleton $CORNELL -o a.json --json ./a.json", 2, "same file");
   EXPECT_EQ(names(), Names{});
