@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Ends the program at random moments and in random ways, and looks at what is left.
 
-Usage: faults.py PROGRAM SCENES [--runs N] [--seed S]
+Usage: faults.py PROGRAM SCENES [--runs N] [--seed S] [--leave-out FAULT]
 
 PROGRAM is sightline, SCENES the folder of the sample scenes.  N times a command and a
 fault are drawn, over all commands and all of
@@ -298,10 +298,12 @@ def main():
     parser.add_argument("scenes")
     parser.add_argument("--runs", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--leave-out", choices=FAULTS, action="append", default=[])
     asked = parser.parse_args()
     faults = Faults(asked.program, asked.scenes, asked.seed)
     try:
-        plan = [(line, fault) for fault in FAULTS for line in COMMANDS]
+        kinds = [fault for fault in FAULTS if fault not in asked.leave_out]
+        plan = [(line, fault) for fault in kinds for line in COMMANDS]
         faults.random.shuffle(plan)
         for i in range(asked.runs):
             faults.once(*plan[i % len(plan)])
