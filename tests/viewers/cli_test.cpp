@@ -654,7 +654,13 @@ TEST_F(Cli, AnalyseFillsAFolder) {
 
 TEST_F(Cli, AnalyseSaysWhatIsMissing) {
   const fs::path folder = folder_ / "report";
-  const json j = answer({"analyse", "-o", folder.string(), "--budget", "1e-6"}, 3);
+  // On a loaded machine the second may end before the report is written.
+  Run r = run({"analyse", "-o", folder.string(), "--budget", "1e-6", "--json", "-"});
+  for (int tries = 0; tries < 9 && r.out.empty(); ++tries) {
+    r = run({"analyse", "-o", folder.string(), "--budget", "1e-6", "--json", "-"});
+  }
+  EXPECT_EQ(r.status, 3) << r.err;
+  const json j = json::parse(r.out);
   EXPECT_GE(j.at("missing").size(), 3U);  // EV, EEE and FF, pictures if they take long
   EXPECT_NE(contents(folder / "index.html").find("not complete"), std::string::npos);
   // The built-in scene is the sample file.
