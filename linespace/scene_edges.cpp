@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <cstdio>
 
 #include "linespace/predicates.h"
@@ -254,6 +255,9 @@ struct EdgeJoiner {
     return found;
   }
 
+  // The same for edges that continue each other.
+  int key(int e) const { return profile(e, low(e)).front().first; }
+
   bool continues(int e, int f, int p) const {
     if (edges[e].kind != edges[f].kind || edges[e].count != edges[f].count) return false;
     const Point& a = scene.point(other_end(e, p));
@@ -279,32 +283,31 @@ void SceneBuilder::join_edges() {
   for (std::size_t e = 0; e < mesh_edges.size(); ++e) {
     if (mesh_edges[e].kind != EdgeKind::Flat) candidates.push_back(static_cast<int>(e));
   }
-  // Around each point, the candidates by object: two of one object may be one, whatever
-  // other edges end there.
+  // Around each point, the candidates by object and key: two of these may be one,
+  // whatever other edges end there.
   struct End {
-    int point, object, edge;
+    int point, object, key, edge;
+    auto operator<=>(const End&) const = default;
+    [[nodiscard]] bool may_go_on_as(const End& other) const {
+      return point == other.point && object == other.object && key == other.key;
+    }
   };
   std::vector<End> ends;
   ends.reserve(2 * candidates.size());
   for (const int e : candidates) {
-    const int object = joiner.sides(e)[0].object;
-    ends.push_back({joiner.low(e), object, e});
-    ends.push_back({joiner.high(e), object, e});
+    const int object = joiner.sides(e)[0].object, key = joiner.key(e);
+    ends.push_back({joiner.low(e), object, key, e});
+    ends.push_back({joiner.high(e), object, key, e});
   }
-  std::sort(ends.begin(), ends.end(), [](const End& a, const End& b) {
-    if (a.point != b.point) return a.point < b.point;
-    return a.object != b.object ? a.object < b.object : a.edge < b.edge;
-  });
+  std::sort(ends.begin(), ends.end());
   // Which edge continues this one at its low and at its high end.
   std::vector<std::array<int, 2>> follower(mesh_edges.size(), {-1, -1});
   for (std::size_t i = 0; i < ends.size();) {
     std::size_t j = i + 1;
-    while (j < ends.size() && ends[j].point == ends[i].point &&
-           ends[j].object == ends[i].object) {
-      ++j;
-    }
+    while (j < ends.size() && ends[j].may_go_on_as(ends[i])) ++j;
     const int p = ends[i].point;
     for (std::size_t k = i; k < j; ++k) {
+      hear_stop();
       const int e = ends[k].edge;
       int& after = follower[e][joiner.high(e) == p];
       for (std::size_t l = k + 1; l < j && after < 0; ++l) {

@@ -82,7 +82,8 @@ TEST(ReadMesh, KeepsDoublesAsWritten) {
 TEST(MeshIo, ObjNamesOfTheSameFacesMakeOneGroup) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\n", face = "f 1 2 3\n";
   const PolygonSoup soup = internal::read_obj(
-      "x.obj", corners + "g a b c\n" + face + "g b a a\n" + face + "g d\n" + face);
+      "x.obj", corners + "g a b c\n" + face + "g b a a\n" + face + "g d\n" + face,
+      test::Unhurried());
   ASSERT_EQ(soup.groups.size(), 3u);
   EXPECT_EQ(soup.groups[0].name, "a");
   EXPECT_EQ(soup.groups[0].aliases, std::vector<std::string>{"b"});
@@ -102,13 +103,13 @@ TEST(MeshIo, ObjManyNamesOfManyFacesTakeLittle) {
   std::string text = "v 0 0 0\nv 1 0 0\nv 0 1 0\ng";
   for (int i = 0; i < kMany; ++i) text += " n" + std::to_string(i);
   for (int i = 0; i < kMany; ++i) text += "\nf 1 2 3";
-  const PolygonSoup soup = internal::read_obj("x.obj", text);
+  const PolygonSoup soup = internal::read_obj("x.obj", text, test::Unhurried());
   ASSERT_EQ(soup.groups.size(), 1u);
   EXPECT_EQ(soup.groups[0].faces.size(), std::size_t{kMany});
   EXPECT_EQ(soup.groups[0].aliases.size(), std::size_t{kMany} - 1);
   // Each name with a face of its own as well: the lists differ, and would be long.
   for (int i = 0; i < kMany; ++i) text += "\ng n" + std::to_string(i) + "\nf 1 2 3";
-  EXPECT_THROW((void)internal::read_obj("x.obj", text), InvalidInput);
+  EXPECT_THROW((void)internal::read_obj("x.obj", text, test::Unhurried()), InvalidInput);
 }
 
 TEST(ReadMesh, ObjGroupsAndIndices) {
@@ -201,8 +202,7 @@ TEST(ReadMesh, NamesLineOrElement) {
   }
   expect("gigantic.stl", "announces 4294967295 triangles");
   expect("unknown.extension", "no mesh format is known by the extension 'extension'");
-  EXPECT_NE(complaint(data("no_such_file.obj")).find("no such file"),
-            std::string::npos);
+  EXPECT_NE(complaint(data("no_such_file.obj")).find("no such file"), std::string::npos);
   EXPECT_NE(complaint(std::string(SIGHTLINE_TEST_DATA) + "/formats").size(), 0u);
 }
 

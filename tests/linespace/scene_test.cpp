@@ -452,7 +452,7 @@ TEST(Scene, ReportsEachDefect) {
       {"non_convex.obj", {{"non-convex polygon", 1}}},
       {"self_crossing.obj", {{"self-crossing polygon", 1}}},
       {"keyhole.obj", {{"repeated vertex", 1}, {"non-convex polygon", 1}}},
-      {"duplicate_face.obj", {{"duplicate face", 2}, {"self-touching", 1}}},
+      {"duplicate_face.obj", {{"duplicate face", 2}, {"self-touching", 2}}},
       {"inconsistent_orientation.obj", {{"inconsistent orientation", 4}}},
       {"non_manifold.obj", {{"non-manifold edge", 1}}},
       {"self_touching.obj", {{"self-touching", 8}}},
@@ -490,8 +490,9 @@ TEST(Scene, DefectsNameTheElementsOfTheFile) {
   const auto touching = find_self_touching(Scene(in_file("self_touching.obj")));
   std::set<std::vector<int>> pairs;
   for (const Defect& d : touching) pairs.insert(d.faces);
-  EXPECT_EQ(pairs, (std::set<std::vector<int>>{
-                       {0, 1}, {1, 0}, {2, 3}, {3, 2}, {4, 5}, {5, 4}, {10, 11}, {11, 10}}));
+  EXPECT_EQ(pairs,
+            (std::set<std::vector<int>>{
+                {0, 1}, {1, 0}, {2, 3}, {3, 2}, {4, 5}, {5, 4}, {10, 11}, {11, 10}}));
 }
 
 // Two polygons of one object, whichever comes first, however they turn and lie.
