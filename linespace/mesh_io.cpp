@@ -251,9 +251,11 @@ std::vector<std::string> files_beside(const std::string& path) {
   std::vector<std::string> files;
 #ifdef SIGHTLINE_HAS_TINYGLTF
   const std::string extension = internal::extension_of(path);
-  if (extension != "gltf" && extension != "glb") return files;
+  const bool may_have_some = extension == "gltf" || extension == "glb";
+  std::error_code error;  // a pipe can be read once only
+  if (!may_have_some || !std::filesystem::is_regular_file(path, error)) return files;
   try {
-    const std::string bytes = internal::load_file(path);
+    const std::string bytes = internal::read_whole(path);
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     for (const std::string& file :
          internal::buffer_files(internal::check_gltf(path, bytes))) {
