@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <gmp.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -42,6 +43,19 @@ constexpr std::string_view kOutOfMemory = "sightline: out of memory\n";
   give_up("sightline: internal error: an exception that could not be caught\n");
 }
 
+// GMP, which holds the exact numbers, would abort where there is no memory.
+void* allocate(std::size_t bytes) {
+  void* const block = std::malloc(bytes);
+  if (block == nullptr) give_up(kOutOfMemory);
+  return block;
+}
+void* reallocate(void* old, std::size_t /*old_bytes*/, std::size_t bytes) {
+  void* const block = std::realloc(old, bytes);
+  if (block == nullptr) give_up(kOutOfMemory);
+  return block;
+}
+void release(void* block, std::size_t /*bytes*/) { std::free(block); }
+
 void occupy(int stream, int flags) {
   if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) return;
   // The lowest free number is the stream's: the ones below are taken by now.
@@ -57,6 +71,7 @@ void prepare_process() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   std::set_terminate(on_terminate);
+  mp_set_memory_functions(allocate, reallocate, release);
 }
 
 std::string standard_output_error() {
