@@ -46,7 +46,7 @@ struct GroupAnswer {
 /// Keeps a reference to the scene.  Immutable; safe to ask from several threads.
 class FaceVisibility {
  public:
-  /// Of the request, budget, stop and progress count.  Throws Stopped.
+  /// The request's budget, stop and progress count.  Throws Stopped.
   /// seam: every face counts as an occluder grown by seam/2 in its own plane (seams.h),
   /// in scene units, finite, from 0 on.
   explicit FaceVisibility(const Scene& scene, const Request& request = {},

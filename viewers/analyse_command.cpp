@@ -486,18 +486,11 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
   report["peak_memory_bytes_with_pictures"] = peak_memory_bytes();
   report["options"] = options_json(options);
   report["info"] = info_json(scene, defects);
-  report["skeleton"] = {{"events", "solid"},
-                        {"kinds", Json::array({"EV", "EEE"})},
-                        {"nodes", node_counts(skeleton)},
-                        {"arcs", arc_counts(skeleton)},
-                        {"complete", skeleton.complete},
-                        {"vertices_done", skeleton.vertices_done},
-                        {"vertices_asked", skeleton.vertices_asked},
-                        {"edges_done", skeleton.edges_done},
-                        {"edges_asked", skeleton.edges_asked},
-                        {"facets_done", skeleton.facets_done},
-                        {"facets_asked", skeleton.facets_asked},
-                        {"predicates", stage_counts(skeleton.predicates)}};
+  report["skeleton"] = skeleton_json(skeleton);
+  report["skeleton"].update({{"events", "solid"},
+                             {"kinds", Json::array({"EV", "EEE"})},
+                             {"complete", skeleton.complete},
+                             {"predicates", stage_counts(skeleton.predicates)}});
   report["stages"] = log.stages();
   report["missing"] = missing_json(skeleton, session);
   const fs::path report_file = folder.announce("report.json");
