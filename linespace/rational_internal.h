@@ -28,5 +28,11 @@ using ExactPoint = std::array<Rational, 3>;
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
           u[0] * v[1] - u[1] * v[0]};
 }
+/// det(b - a, c - a, d - a), whose sign orient3d gives.
+[[nodiscard]] inline Rational exact_orient(const ExactPoint& a, const ExactPoint& b,
+                                           const ExactPoint& c, const ExactPoint& d) {
+  return exact_dot(exact_difference(d, a),
+                   exact_cross(exact_difference(b, a), exact_difference(c, a)));
+}
 
 }  // namespace sightline::internal

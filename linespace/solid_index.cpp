@@ -45,7 +45,8 @@ Box united(const Box& a, const Box& b) {
   return both;
 }
 
-bool strictly_in(const Box& box, const Point& p) {
+template <class P>
+bool strictly_in(const Box& box, const P& p) {
   for (int i = 0; i < 3; ++i) {
     if (p[i] <= box.min[i] || p[i] >= box.max[i]) return false;
   }
@@ -60,8 +61,29 @@ int narrowest_axis(const Box& box) {
   return axis;
 }
 
+// As orient2d and orient3d, of a point that need not be one of doubles.
+Sign turn_at(int axis, const Point& a, const Point& b, const Point& p) {
+  return orient2d(axis, a, b, p);
+}
+Sign turn_at(int axis, const Point& a, const Point& b, const ExactPoint& p) {
+  const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+  const ExactPoint from = exact_point(a);
+  const ExactPoint to = exact_point(b);
+  const Rational turn =
+      (to[u] - from[u]) * (p[v] - from[v]) - (to[v] - from[v]) * (p[u] - from[u]);
+  return static_cast<Sign>(turn.sign());
+}
+Sign side_of(const Point& a, const Point& b, const Point& c, const Point& p) {
+  return orient3d(a, b, c, p);
+}
+Sign side_of(const Point& a, const Point& b, const Point& c, const ExactPoint& p) {
+  return static_cast<Sign>(
+      exact_orient(exact_point(a), exact_point(b), exact_point(c), p).sign());
+}
+
 // The closed polygon contains the point, which must lie in its plane.
-bool contains_in_plane(const Scene& scene, int face, const Point& p) {
+template <class P>
+bool contains_in_plane(const Scene& scene, int face, const P& p) {
   const auto ids = scene.face_points(face);
   const auto corner = [&](std::size_t k) -> const Point& {
     return scene.point(ids[k % ids.size()]);
@@ -70,7 +92,7 @@ bool contains_in_plane(const Scene& scene, int face, const Point& p) {
     const Sign front = orient2d(axis, corner(0), corner(1), corner(2));
     if (front == Sign::Zero) continue;  // seen edge-on along this axis
     for (std::size_t k = 0; k < ids.size(); ++k) {
-      if (orient2d(axis, corner(k), corner(k + 1), p) == -front) return false;
+      if (turn_at(axis, corner(k), corner(k + 1), p) == -front) return false;
     }
     return true;
   }
@@ -78,9 +100,10 @@ bool contains_in_plane(const Scene& scene, int face, const Point& p) {
 }
 
 // A ray from a point along an axis, forward or backward.
+template <class P>
 struct Ray {
   const Scene& scene;
-  const Point& from;
+  const P& from;
   int axis;
   bool forward;
 
@@ -99,7 +122,7 @@ struct Ray {
       if (a[u] < from[u] && b[u] < from[u]) continue;  // left of the point
       // The side counts iff it passes the point on the latter's right.  A point on the
       // side is moved along u: then the side is on the left.
-      const Sign s = orient2d(axis, a, b, from);
+      const Sign s = turn_at(axis, a, b, from);
       if (b_above && s == Sign::Positive) ++count;
       if (a_above && s == Sign::Negative) --count;
     }
@@ -143,14 +166,15 @@ SolidIndex::SolidIndex(const Scene& scene)
   solid_tree_ = Bvh(solid_boxes, 1);
 }
 
-std::optional<SolidIndex::Windings> SolidIndex::windings(int object,
-                                                         const Point& p) const {
+template <class P>
+std::optional<SolidIndex::Windings> SolidIndex::count_windings(int object,
+                                                               const P& p) const {
   const Solid& solid = solids_[solid_of_object_[object]];
   const auto& faces = scene_->objects()[object].faces;
   const int k = solid.axis;
   // The nearer side of the box is left through fewer faces, as a rule.
   const bool forward = solid.box.max[k] - p[k] <= p[k] - solid.box.min[k];
-  const Ray ray{*scene_, p, k, forward};
+  const Ray<P> ray{*scene_, p, k, forward};
   Windings count;
   // True when the point lies on the face, which ends the search.
   const auto look_at = [&](std::uint32_t item) {
@@ -166,7 +190,7 @@ std::optional<SolidIndex::Windings> SolidIndex::windings(int object,
     }();
     if (turns == 0 && beside) return false;
     const auto t = plane_points(*scene_, f);
-    const Sign s = orient3d(t[0], t[1], t[2], p);
+    const Sign s = side_of(t[0], t[1], t[2], p);
     if (s == Sign::Zero) return turns != 0 || contains_in_plane(*scene_, f, p);
     // The face is ahead of a point behind its front iff the ray leaves through it.
     const int leaves = forward ? turns : -turns;
@@ -188,6 +212,15 @@ std::optional<SolidIndex::Windings> SolidIndex::windings(int object,
   return count;
 }
 
+std::optional<SolidIndex::Windings> SolidIndex::windings(int object,
+                                                         const Point& p) const {
+  return count_windings(object, p);
+}
+std::optional<SolidIndex::Windings> SolidIndex::windings(int object,
+                                                         const ExactPoint& p) const {
+  return count_windings(object, p);
+}
+
 bool SolidIndex::in_solid(const Point& p) const {
   return solid_tree_.any_towards(
       Point::Zero(), [&](const Box& box) { return strictly_in(box, p); },
@@ -196,7 +229,8 @@ bool SolidIndex::in_solid(const Point& p) const {
       });
 }
 
-std::vector<int> SolidIndex::solids_around(const Point& p) const {
+template <class P>
+std::vector<int> SolidIndex::list_solids_around(const P& p) const {
   std::vector<int> found;
   solid_tree_.traverse([&](const Box& box) { return strictly_in(box, p); },
                        [&](std::uint32_t i) {
@@ -205,6 +239,13 @@ std::vector<int> SolidIndex::solids_around(const Point& p) const {
                          if (w && w->solid > 0) found.push_back(object);
                        });
   return found;
+}
+
+std::vector<int> SolidIndex::solids_around(const Point& p) const {
+  return list_solids_around(p);
+}
+std::vector<int> SolidIndex::solids_around(const ExactPoint& p) const {
+  return list_solids_around(p);
 }
 
 }  // namespace sightline::internal

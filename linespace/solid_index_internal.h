@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "linespace/bvh_internal.h"
+#include "linespace/rational_internal.h"
 #include "linespace/scene.h"
 
 namespace sightline::internal {
@@ -35,18 +36,26 @@ class SolidIndex {
     return w ? std::optional(w->solid - w->turned) : std::nullopt;
   }
   /// How many times the faces with material behind them do, and how many times those of
-  /// shells turned inside out would, turned outwards.
+  /// shells turned inside out would, turned outwards.  Points with rational coordinates
+  /// take some microseconds a face.
   struct Windings {
     int solid = 0, turned = 0;
   };
   [[nodiscard]] std::optional<Windings> windings(int object, const Point& p) const;
+  [[nodiscard]] std::optional<Windings> windings(int object, const ExactPoint& p) const;
 
   /// Some closed object has the point strictly inside: off its surface, in its material.
   [[nodiscard]] bool in_solid(const Point& p) const;
   /// All closed objects that do.
   [[nodiscard]] std::vector<int> solids_around(const Point& p) const;
+  [[nodiscard]] std::vector<int> solids_around(const ExactPoint& p) const;
 
  private:
+  template <class P>
+  [[nodiscard]] std::optional<Windings> count_windings(int object, const P& p) const;
+  template <class P>
+  [[nodiscard]] std::vector<int> list_solids_around(const P& p) const;
+
   // A closed object: which faces it has, and how they are looked up.
   struct Solid {
     int object;

@@ -198,6 +198,7 @@ bool drawn_corner(const Generators& g, const Star& star, const Eye& eye) {
   };
   std::vector<int> drawn;
   for (int r = 0; r < n; ++r) {
+    if (star.along_edge[r] == 0) continue;
     if (std::any_of(star.sectors.begin(), star.sectors.end(),
                     [&](const Star::Sector& s) { return hides(s, r); })) {
       continue;

@@ -28,18 +28,6 @@ Cut make_cut(CutKind kind, std::int32_t feature, const std::array<std::int32_t, 
   return cut;
 }
 
-Rational exact_orient(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c,
-                      const ExactPoint& d) {
-  const auto minus = [](const ExactPoint& p, const ExactPoint& q) {
-    return ExactPoint{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-  };
-  const ExactPoint u = minus(b, a);
-  const ExactPoint v = minus(c, a);
-  const ExactPoint w = minus(d, a);
-  return w[0] * (u[1] * v[2] - u[2] * v[1]) + w[1] * (u[2] * v[0] - u[0] * v[2]) +
-         w[2] * (u[0] * v[1] - u[1] * v[0]);
-}
-
 Cut exact_cut(const Rational& parameter) {
   constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
   const double s = parameter.convert_to<double>();

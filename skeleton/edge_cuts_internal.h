@@ -60,10 +60,6 @@ inline Cut end_cut() { return {CutKind::End, -1, {-1, -1, -1}, 1, 1}; }
 [[nodiscard]] double rounded_parameter(const Scene& scene, const LineThrough& edge,
                                        const Cut& cut);
 
-/// det(b - a, c - a, d - a), whose sign orient3d gives.
-[[nodiscard]] Rational exact_orient(const ExactPoint& a, const ExactPoint& b,
-                                    const ExactPoint& c, const ExactPoint& d);
-
 /// Order of two cuts along the edge from `start` to `end`: exact.
 [[nodiscard]] Sign compare(const Scene& scene, const LineThrough& edge, const Cut& a,
                            const Cut& b);

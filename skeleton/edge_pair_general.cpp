@@ -104,11 +104,15 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     hear_stop_now();
     const auto s = curve.between(stops[i], stops[i + 1]);
-    const State here = s ? state_of(curve.points_at(*s), true) : std::nullopt;
+    const auto line = s ? curve.points_at(*s) : std::nullopt;
+    State here = state_of(line, true);
+    // Edges that enter a solid have parts between which all of a segment is inside.
+    if (here && !begin && first.touched && last.touched && g_.in_material((*line)[0]))
+      here.reset();
     if (begin && i > 0) {
       // The arc goes on through a critical line that is free itself.
-      const auto line = curve.points_at(stops[i]);
-      if (here != state || (line && state_of(line, false) != state)) {
+      const auto stop = curve.points_at(stops[i]);
+      if (here != state || (stop && state_of(stop, false) != state)) {
         free.push_back({{*begin, stops[i]}, stretch.f0, *state});
         begin.reset();
       }

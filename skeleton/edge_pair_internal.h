@@ -31,6 +31,8 @@ struct FoundNode {
   bool grazes = true;
   /// EEEE and Degenerate: which of the two lines.
   bool rising = false;
+  /// EEEE: arcs between other outer edges may end there too.
+  bool elsewhere = false;
   /// Polygon mode: the first, the last contact is an end contact.
   std::array<bool, 2> ends{};
   std::uint8_t count = 0;
@@ -110,9 +112,13 @@ class EdgePairs {
   [[nodiscard]] bool ends_at_corner(const Outer& outer, const EeeCurve& curve,
                                     const CurveCut& cut, int corner, Sign f0) const;
   [[nodiscard]] bool may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
-                                    const CurveCut& cut);
+                                    const CurveCut& cut, const FoundNode& node);
+  [[nodiscard]] bool any_touched(std::span<const Generator> edges) const;
   void list_contacts(const Outer& outer, const EeeCurve& curve, const CurveCut& cut,
                      FoundNode& node) const;
+  [[nodiscard]] bool rises_at(std::span<const Generator> edges,
+                              const std::optional<std::array<ExactPoint, 2>>& line,
+                              bool beyond_other) const;
   [[nodiscard]] bool may_touch_beyond(const Outer& outer, const EeeCurve& curve,
                                       const CurveCut& cut, const FoundNode& node);
 

@@ -52,6 +52,26 @@ RoundedLine rounded_line(const OuterPair& o, const EeeCurve& curve, const CurveC
           std::max(slack(cut.lo, cut.hi, p0, p1), slack(t[0], t[1], q0, q1))};
 }
 
+// Where a line that meets p + s (q - p), and is not parallel to it, does so.
+Rational parameter_on(const Point& p, const Point& q,
+                      const std::array<ExactPoint, 2>& line) {
+  const ExactPoint way = exact_difference(line[1], line[0]);
+  const ExactPoint from = exact_cross(way, exact_difference(exact_point(p), line[0]));
+  const ExactPoint step =
+      exact_cross(way, exact_difference(exact_point(q), exact_point(p)));
+  std::size_t axis = 0;
+  while (axis < 2 && step[axis] == 0) ++axis;
+  return -from[axis] / step[axis];
+}
+
+// Where the edge meets what it touches it may lie in the facet.
+bool may_end_in(const Scene& scene, const Ridge& r, int facet) {
+  if (!r.touched) return false;
+  return r.pierced_by.empty() || std::ranges::any_of(r.pierced_by, [&](int face) {
+           return scene.faces()[face].facet == facet;
+         });
+}
+
 }  // namespace
 
 // Polygon mode: which outer contacts of the line at a cut are end contacts, first edge
@@ -190,6 +210,7 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
       } else {
         set(NodeKind::EEEE, {first, between, fourth, last});
       }
+      node.elsewhere = any_touched({node.generators.data(), node.count});
       break;
     }
   }
@@ -203,7 +224,7 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
     if (cut.kind == CurveCutKind::Far) std::swap(node.ends[0], node.ends[1]);
   }
   // Both outer edges may enter a face at once.
-  if (node.kind == NodeKind::Pierce || may_touch_more(outer, curve, middle, cut) ||
+  if (node.kind == NodeKind::Pierce || may_touch_more(outer, curve, middle, cut, node) ||
       may_touch_beyond(outer, curve, cut, node)) {
     list_contacts(outer, curve, cut, node);
     if (!node.all.empty()) return node;
@@ -236,19 +257,14 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
 // coincide, another edge's line is not certainly missed, or a corner is not that of a
 // convex solid that stands alone.
 bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
-                               const CurveCut& cut) {
+                               const CurveCut& cut, const FoundNode& node) {
   const auto coincides = [&](const CurveCut& other) {
     return other.hi >= cut.lo && other.lo <= cut.hi && !other.same_as(cut) &&
            curve.compare(other, cut) == Sign::Zero;
   };
   if (cut.kind == CurveCutKind::Given) return true;
   // Where edges of touching solids cross, a line meets both at one point.
-  if (cut.kind == CurveCutKind::Crossing) {
-    for (const int ridge :
-         {outer.first, middle, outer.last, carriers_.ridge[cut.feature]}) {
-      if (ridge >= 0 && g_.ridges()[ridge].touched) return true;
-    }
-  }
+  if (node.elsewhere) return true;
   for (const Constraint& c : constraints_) {
     if (c.values.constant() && c.values.sign0 == Sign::Zero) return true;
     if (cut.kind == CurveCutKind::Start ? c.zero0
@@ -273,6 +289,9 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
   }
   if (cut.kind == CurveCutKind::OnFirst || cut.kind == CurveCutKind::OnPlane) {
     if (carriers_.touched_facets[cut.feature] != 0) return true;
+    for (const int ridge : {outer.first, middle, outer.last}) {
+      if (may_end_in(scene_, g_.ridges()[ridge], cut.feature)) return true;
+    }
     // A corner w of the face is on the line iff it is in the plane of P(s) and the last
     // edge, or that of P(s) and the middle edge where the face is at the last one.
     const auto& at_last = g_.ridges()[outer.last].facets;
@@ -322,10 +341,46 @@ bool EdgePairs::may_touch_beyond(const Outer& outer, const EeeCurve& curve,
                                {node.generators.data(), node.count});
 }
 
+bool EdgePairs::any_touched(std::span<const Generator> edges) const {
+  return std::ranges::any_of(edges, [&](const Generator& e) {
+    const int ridge = e.id < 0 ? -1 : g_.ridge_of_edge(e.id);
+    return ridge >= 0 && g_.ridges()[ridge].touched;
+  });
+}
+
+// Which of two lines through four edges, as the crossings that find it say: the line by
+// two points; else that one which is farther along the outer edge with the smaller
+// number.  Of coplanar edges there is one line only.
+bool EdgePairs::rises_at(std::span<const Generator> edges,
+                         const std::optional<std::array<ExactPoint, 2>>& line,
+                         bool beyond_other) const {
+  std::array<int, 4> ridges{};
+  for (std::size_t i = 0; i < 4; ++i) ridges[i] = g_.ridge_of_edge(edges[i].id);
+  if (std::ranges::min(ridges) < 0) return false;
+  const auto [first, last] = std::minmax(ridges[0], ridges[3]);
+  const OuterPair pair{&scene_, g_.ridges()[first].points, g_.ridges()[last].points};
+  const int middle = carriers_.of_ridge[ridges[1]];
+  const int fourth = carriers_.of_ridge[ridges[2]];
+  for (const int carrier : {middle, fourth}) {
+    const auto& m = carriers_.all[carrier].points;
+    for (const auto& e : {pair.p, pair.q}) {
+      if (orient3d(pair.at(e[0]), pair.at(e[1]), pair.at(m[0]), pair.at(m[1])) ==
+          Sign::Zero) {
+        return false;
+      }
+    }
+  }
+  std::optional<Rational> s;
+  if (line) s = parameter_on(pair.at(pair.p[0]), pair.at(pair.p[1]), *line);
+  const EeeCurve curve(pair, carriers_.all, middle, pair.form(carriers_.all[middle]));
+  return curve.rises_at(fourth, s, beyond_other);
+}
+
 void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
                               const CurveCut& cut, FoundNode& node) const {
   NodeContacts all;
-  if (const auto points = curve.points_at(cut)) {
+  const auto points = curve.points_at(cut);
+  if (points) {
     const auto& [a, b] = *points;
     const LineScan scan(scene_, faces_near_line(g_, rounded(a), rounded(b)), a, b);
     const NodeContacts between = contacts_between(g_, scan);
@@ -346,13 +401,15 @@ void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
   if (nothing_new && !all.end) return;
   node.kind = all.kind;
   node.self = all.self;
+  node.elsewhere = all.kind == NodeKind::EEEE && any_touched(all.generators);
   if (!ends_one_arc(all.kind)) {
     node.end = all.end;
     node.ends = all.ends;
   } else if (node.generators[0] != all.generators.front()) {
     std::swap(node.ends[0], node.ends[1]);
   }
-  node.rising = all.second;
+  node.rising = all.kind == NodeKind::EEEE ? rises_at(all.generators, points, all.second)
+                                           : all.second;
   node.all = all.generators;
   node.line = std::move(all.line);
   node.segment = all.segment;

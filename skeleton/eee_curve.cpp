@@ -189,6 +189,19 @@ EeeCurve::Root EeeCurve::exact(const CurveCut& cut) const {
   return {b, -root, -2 * a, d};
 }
 
+bool EeeCurve::rises_at(int carrier, const std::optional<Rational>& s,
+                        bool larger) const {
+  const auto h = exact_quadratic(carrier);
+  const Ring a = h[0] - h[1] + h[2];
+  const Ring b = h[1] - 2 * h[0];
+  Sign slope = larger ? sign_of(a) : -sign_of(a);
+  if (s) {
+    const auto ring = [](const auto& x) { return Ring(CGAL::Gmpz(x.backend().data())); };
+    slope = sign_of(b * ring(denominator(*s)) + 2 * a * ring(numerator(*s)));
+  }
+  return slope == (middle_ < carrier ? Sign::Positive : Sign::Negative);
+}
+
 CurveCut EeeCurve::cut_at(const Rational& s) const {
   constexpr double slack = 16 * kU;
   const double near = s.convert_to<double>();

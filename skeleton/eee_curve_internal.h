@@ -161,6 +161,11 @@ class EeeCurve {
   [[nodiscard]] std::optional<std::array<ExactPoint, 2>> points_at(
       const Rational& s) const;
 
+  /// H of the carrier, taken in order of carriers, rises at its root s; without s: at the
+  /// larger, or the smaller one of two.
+  [[nodiscard]] bool rises_at(int carrier, const std::optional<Rational>& s,
+                              bool larger) const;
+
   /// The line at a crossing, wherever it lies.
   [[nodiscard]] std::optional<ExactLine> line_at(const CurveCut& cut) const;
 

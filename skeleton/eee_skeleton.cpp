@@ -27,12 +27,14 @@ std::uint32_t join(const FoundNode& found, NodeJoiner& nodes) {
   node.ends = found.ends;
   node.second = found.rising;
   node.segment = found.segment;
+  if (node.kind == NodeKind::EEEE && !found.elsewhere)
+    return nodes.join_eeee(node, generators_of(found), found.grazes);
   return nodes.join(node, generators_of(found), found.grazes, found.line);
 }
 
 // All arcs of one first edge.
 void add_arcs(std::vector<FoundArc>& arcs, NodeJoiner& nodes, Skeleton& out) {
-  // Both arcs that end at an EEEE are found between the same outer edges.
+  // Both arcs that end at such an EEEE are found between the same outer edges.
   nodes.forget_eeee();
   const auto end = [&](std::size_t i) -> const FoundNode& {
     return arcs[i / 2].ends[i % 2];

@@ -239,12 +239,17 @@ void Generators::find_blockers() {
 }
 
 void Generators::find_inside(const Request& request, Stage& stage) {
-  const SolidIndex solids(*scene_);
+  solids_ = std::make_shared<const SolidIndex>(*scene_);
   inside_.resize(stars_.size());
   for_each_of(0, stars_.size(), stars_.size(), request, stage, [&](std::size_t i) {
-    inside_[i] = in_material(*scene_, solids, scene_->point(stars_[i].point)) ? 1 : 0;
+    inside_[i] =
+        internal::in_material(*scene_, *solids_, scene_->point(stars_[i].point)) ? 1 : 0;
   });
   for (const auto flag : inside_) inside_count_ += flag;
+}
+
+bool Generators::in_material(const ExactPoint& p) const {
+  return internal::in_material(*scene_, *solids_, p);
 }
 
 }  // namespace sightline::internal

@@ -20,6 +20,8 @@
 
 namespace sightline::internal {
 
+class SolidIndex;
+
 /// How a line meets an edge, coming from a viewpoint: not at all from outside, grazing,
 /// or entering the solid there.
 enum class EdgeContact : std::uint8_t { None, Graze, End };
@@ -96,6 +98,8 @@ struct Star {
   std::vector<std::int32_t> facets;
   /// Rays along the sides at the point, as far end points: one per direction.
   std::vector<std::int32_t> rays;
+  /// Of each ray: an edge runs along it.  Else it cuts a face, or a facet, in parts.
+  std::vector<std::uint8_t> along_edge;
   /// Each face as (ray, ray, facet), positions in `rays`, less than half a turn apart.
   struct Sector {
     std::int32_t from, to, facet;
@@ -132,6 +136,10 @@ class Generators {
   /// The corner lies strictly inside a solid: it takes part in no event.
   [[nodiscard]] bool inside_solid(int star) const { return inside_[star] != 0; }
   [[nodiscard]] int inside_count() const { return inside_count_; }
+
+  /// The point is strictly inside a closed object, in its material
+  /// (solid_index_internal.h).
+  [[nodiscard]] bool in_material(const ExactPoint& p) const;
 
   /// Objects with an edge that ends at the point, ascending: not those that have it
   /// inside a facet or a straight edge.
@@ -223,6 +231,7 @@ class Generators {
   std::vector<std::vector<std::array<std::int32_t, 2>>> outlines_;
   std::vector<std::int32_t> object_starts_, object_ids_;
   std::vector<std::uint8_t> empty_room_;  // by object
+  std::shared_ptr<const SolidIndex> solids_;
 };
 
 /// Sign of a plane's bounded value at p, by the exact predicate where the bound is too

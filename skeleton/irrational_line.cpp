@@ -224,6 +224,15 @@ int find_contact(const Generators& g, const IrrationalScan& scan, int edge) {
   return -1;
 }
 
+// Of four edges: along the outer one with the smaller number of a ridge.
+bool is_beyond_other(const Generators& g, const IrrationalScan& scan,
+                     const NodeContacts& node) {
+  const std::array<int, 2> outer{node.generators.front().id, node.generators.back().id};
+  const int e =
+      g.ridge_of_edge(outer[0]) < g.ridge_of_edge(outer[1]) ? outer[0] : outer[1];
+  return scan.beyond_other(find_contact(g, scan, e), e) == Sign::Positive;
+}
+
 }  // namespace
 
 std::optional<FreeSegment> free_segment(const Generators& g, const ExactLine& line,
@@ -322,6 +331,7 @@ NodeContacts contacts_along(const Generators& g, const ExactLine& line,
     node.second = s == Sign::Positive;
     break;
   }
+  if (node.kind == NodeKind::EEEE) node.second = is_beyond_other(g, scan, node);
   const auto outermost = [&](const std::vector<Generator>& c, int otherwise) {
     return contact_with(c.empty() ? otherwise : c.front().id);
   };

@@ -6,18 +6,12 @@
 
 namespace sightline::internal {
 
-std::uint32_t NodeJoiner::number(const SkeletonNode& node,
-                                 std::span<const Generator> generators,
-                                 std::string_view line) {
-  return table_of(node.kind).find_or_add(node, generators, line,
-                                         static_cast<std::uint32_t>(out_.nodes.size()));
-}
-
-std::uint32_t NodeJoiner::join(const SkeletonNode& node,
-                               std::span<const Generator> generators, bool grazes,
-                               std::string_view line) {
-  const std::uint32_t known = number(node, generators, line);
-  if (known == out_.nodes.size()) return add(node, generators, grazes);
+std::uint32_t NodeJoiner::join_in(NodeTable& table, const SkeletonNode& node,
+                                  std::span<const Generator> generators, bool grazes,
+                                  std::string_view line) {
+  const auto next = static_cast<std::uint32_t>(out_.nodes.size());
+  const std::uint32_t known = table.find_or_add(node, generators, line, next);
+  if (known == next) return add(node, generators, grazes);
   found_again(known, node, generators, grazes);
   return known;
 }
@@ -44,7 +38,9 @@ std::uint32_t NodeJoiner::add(SkeletonNode node, std::span<const Generator> gene
 void NodeJoiner::add_if_new(const SkeletonNode& node,
                             std::span<const Generator> generators,
                             std::string_view line) {
-  if (number(node, generators, line) == out_.nodes.size()) add(node, generators, true);
+  const auto next = static_cast<std::uint32_t>(out_.nodes.size());
+  if (lines_.find_or_add(node, generators, line, next) == next)
+    add(node, generators, true);
 }
 
 void NodeJoiner::found_again(std::uint32_t number, const SkeletonNode& node,

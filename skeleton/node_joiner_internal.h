@@ -26,7 +26,14 @@ class NodeJoiner {
   /// `end` and `ends` counts, and only where none ends there, what the others say.
   /// `line` is that of NodeContacts.
   std::uint32_t join(const SkeletonNode& node, std::span<const Generator> generators,
-                     bool grazes, std::string_view line = {});
+                     bool grazes, std::string_view line = {}) {
+    return join_in(lines_, node, generators, grazes, line);
+  }
+  /// The same of an EEEE line that is not found again once forget_eeee() was called.
+  std::uint32_t join_eeee(const SkeletonNode& node, std::span<const Generator> generators,
+                          bool grazes) {
+    return join_in(eeee_, node, generators, grazes, {});
+  }
   /// The same of a line that is found but once.
   std::uint32_t add(SkeletonNode node, std::span<const Generator> generators,
                     bool grazes);
@@ -53,7 +60,7 @@ class NodeJoiner {
   /// Adds the node if its line is new.
   void add_if_new(const SkeletonNode& node, std::span<const Generator> generators,
                   std::string_view line);
-  /// From now on no EEEE line is found that was found before.
+  /// From now on join_eeee() is not called with a line that was told it before.
   void forget_eeee() { eeee_.clear(); }
 
   /// Once all arcs are found.  In polygon mode a degenerate line that grazes everywhere,
@@ -61,11 +68,13 @@ class NodeJoiner {
   void finish_ends();
 
  private:
+  /// Where a node of this kind is looked for first.
   [[nodiscard]] NodeTable& table_of(NodeKind kind) {
     return kind == NodeKind::EEEE ? eeee_ : lines_;
   }
-  std::uint32_t number(const SkeletonNode& node, std::span<const Generator> generators,
-                       std::string_view line);
+  std::uint32_t join_in(NodeTable& table, const SkeletonNode& node,
+                        std::span<const Generator> generators, bool grazes,
+                        std::string_view line);
   void found_again(std::uint32_t number, const SkeletonNode& node,
                    std::span<const Generator> generators, bool grazes);
 

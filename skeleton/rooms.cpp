@@ -84,6 +84,20 @@ bool is_empty(const RoomsQuestion& q, int room) {
   return empty;
 }
 
+// Some closed object has the point strictly inside, but for those in whose hollows it is.
+template <class P>
+bool any_but_hollows(const Scene& scene, const SolidIndex& solids, const P& p) {
+  std::vector<int> around = solids.solids_around(p);
+  for (const Scene::Hollow& hollow : scene.hollows()) {
+    hear_stop();
+    const auto at = std::find(around.begin(), around.end(), hollow.around);
+    if (at == around.end()) continue;
+    const auto w = solids.windings(hollow.object, p);
+    if (!w || w->solid < 0) around.erase(at);
+  }
+  return !around.empty();
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> empty_rooms(const RoomsQuestion& q) {
@@ -97,15 +111,11 @@ std::vector<std::uint8_t> empty_rooms(const RoomsQuestion& q) {
 
 bool in_material(const Scene& scene, const SolidIndex& solids, const Point& p) {
   if (scene.hollows().empty()) return solids.in_solid(p);
-  std::vector<int> around = solids.solids_around(p);
-  for (const Scene::Hollow& hollow : scene.hollows()) {
-    hear_stop();
-    const auto at = std::find(around.begin(), around.end(), hollow.around);
-    if (at == around.end()) continue;
-    const auto w = solids.windings(hollow.object, p);
-    if (!w || w->solid < 0) around.erase(at);
-  }
-  return !around.empty();
+  return any_but_hollows(scene, solids, p);
+}
+
+bool in_material(const Scene& scene, const SolidIndex& solids, const ExactPoint& p) {
+  return any_but_hollows(scene, solids, p);
 }
 
 }  // namespace sightline::internal

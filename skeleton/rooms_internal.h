@@ -35,5 +35,7 @@ struct RoomsQuestion {
 /// it inside or on its surface.
 [[nodiscard]] bool in_material(const Scene& scene, const SolidIndex& solids,
                                const Point& p);
+[[nodiscard]] bool in_material(const Scene& scene, const SolidIndex& solids,
+                               const ExactPoint& p);
 
 }  // namespace sightline::internal

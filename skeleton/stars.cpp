@@ -56,6 +56,25 @@ void add_wedges(const Scene& s, int f, int p, std::vector<Wedge>& wedges) {
   }
 }
 
+// The far ends of a face's sides with the point that are edges: sides of its wedges.
+std::vector<std::int32_t> ends_of_edges_at(const Scene& s, int f, int p) {
+  const auto c = s.face_points(f);
+  const std::size_t n = c.size();
+  std::vector<std::int32_t> ends;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (s.edge_of_side(f, static_cast<int>(k)) < 0) continue;
+    const int q = c[k];
+    const int r = c[(k + 1) % n];
+    const Point& at = s.point(p);
+    const bool beside = !collinear(at, s.point(q), s.point(r)) ||
+                        same_direction(at, s.point(q), s.point(r));
+    if (q != p && r != p && beside) continue;
+    if (q != p) ends.push_back(q);
+    if (r != p) ends.push_back(r);
+  }
+  return ends;
+}
+
 // The solids around the star are locally one convex cone.
 bool is_one_cone(const Generators& g, const Star& star, std::span<const Wedge> wedges) {
   const Scene& s = g.scene();
@@ -165,6 +184,10 @@ Star Generators::star_of(int p) const {
     return static_cast<std::int32_t>(star.rays.size() - 1);
   };
   for (const auto& w : wedges) star.sectors.push_back({ray(w[0]), ray(w[1]), w[2]});
+  star.along_edge.assign(star.rays.size(), 0);
+  for (const int f : star.faces) {
+    for (const int end : ends_of_edges_at(s, f, p)) star.along_edge[ray(end)] = 1;
+  }
 
   star.touched = !foreign.empty() || objects_at(p).size() > 1;
   star.convex = !star.touched && is_one_cone(*this, star, wedges);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "skeleton/plane_values_internal.h"
+#include "skeleton/star_turns_internal.h"
 #include "skeleton/vertex_pair_internal.h"
 
 namespace sightline::internal {
@@ -368,86 +369,38 @@ void VertexViewer::add_unsupported_convex(Pair& pair) {
 // Between the planes of any two rays at the viewpoint the picture of the star along the
 // line does not change: one cover test for each stretch.
 void VertexViewer::add_unsupported_general(Pair& pair) {
-  const auto& rays = star_->rays;
-  const std::size_t n = rays.size();
-  struct Turn {
-    Sign before, after;  // at the edge's ends
-    Cut cut;
-  };
-  std::vector<Turn> turns(n * n);
-  std::vector<Cut> cuts;
-  const LineThrough line{pair.e0, pair.e1};
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
-      const PlaneSide plane({at_, scene_.point(rays[i]), scene_.point(rays[j])});
-      const auto [x0, x1, s0, s1] = plane_values(plane, pair.e0, pair.e1);
-      Turn t{s0, s1, {}};
-      // Opposite rays span no plane: zero at both ends, and harmless.
-      if ((t.before == Sign::Zero || t.after == Sign::Zero) &&
-          !collinear(at_, scene_.point(rays[i]), scene_.point(rays[j]))) {
-        pair.degenerate = true;
-        return;
-      }
-      if (t.before != t.after) {
-        int facet = -1;
-        for (const auto& s : star_->sectors) {
-          const auto a = static_cast<std::size_t>(s.from);
-          const auto b = static_cast<std::size_t>(s.to);
-          if ((a != i || b != j) && (a != j || b != i)) continue;
-          if (facet >= 0 && facet != s.facet) pair.mild = true;  // two in one place
-          facet = s.facet;
-        }
-        t.cut = make_cut(facet < 0 ? CutKind::Saddle : CutKind::Support, facet,
-                         {point_, rays[i], rays[j]}, x0, x1);
-        cuts.push_back(t.cut);
-        pair.keep(t.cut);
-      }
-      turns[i * n + j] = t;
-    }
+  StarTurns turns(scene_, *star_, pair.e0, pair.e1);
+  if (turns.degenerate()) {
+    pair.degenerate = true;
+    return;
   }
-  std::sort(cuts.begin(), cuts.end(), [&](const Cut& a, const Cut& b) {
-    return compare(scene_, line, a, b) == Sign::Negative;
-  });
+  pair.mild |= turns.doubled();
+  for (const Cut& cut : turns.cuts()) pair.keep(cut);
+  std::vector<Cut> cuts(turns.cuts().begin(), turns.cuts().end());
   cuts.push_back(end_cut());
-  std::vector<std::int8_t> turn(n * n, 0);
+  const LineThrough line{pair.e0, pair.e1};
+  enum class Seen : std::uint8_t { Nothing, Grazes, Ends } last = Seen::Nothing;
+  bool edge_on = false;  // some face is, at `from`
   Cut from = start_cut();
   for (const Cut& to : cuts) {
     if (compare(scene_, line, from, to) == Sign::Negative) {
-      for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t j = i + 1; j < n; ++j) {
-          const Turn& t = turns[i * n + j];
-          const bool passed =
-              t.before != t.after && compare(scene_, line, t.cut, from) != Sign::Positive;
-          const Sign s = passed ? t.after : t.before;
-          turn[i * n + j] = static_cast<std::int8_t>(s);
-          turn[j * n + i] = static_cast<std::int8_t>(-s);
-        }
-      }
-      bool gap = false;
-      for (std::size_t k = 0; k < n && !gap; ++k) {
-        gap = std::none_of(
-            star_->sectors.begin(), star_->sectors.end(), [&](const Star::Sector& s) {
-              auto a = static_cast<std::size_t>(s.from);
-              auto b = static_cast<std::size_t>(s.to);
-              if (turn[a * n + b] < 0) std::swap(a, b);
-              if (turn[a * n + b] == 0) return false;
-              return a == k || (turn[a * n + k] > 0 && turn[k * n + b] > 0);
-            });
-      }
-      if (!gap && !g_.polygon()) pair.close(from, to);
-      if (!gap && g_.polygon() && !corner_drawn_between(from, to, line)) {
-        pair.close(from, to);
-      } else if (!gap && g_.polygon()) {
-        const bool goes_on =
-            !pair.lists.ending.empty() &&
-            compare(scene_, line, pair.lists.ending.back().to, from) == Sign::Zero;
-        if (goes_on) {
+      const bool gap = turns.leaves_gap(from);
+      const bool ends = !gap && g_.polygon() && corner_drawn_between(from, to, line);
+      const Seen seen = gap ? Seen::Grazes : ends ? Seen::Ends : Seen::Nothing;
+      if (edge_on && seen == last && seen != Seen::Nothing)
+        pair.lists.turns.push_back({from, ends});
+      if (seen == Seen::Nothing) pair.close(from, to);
+      if (seen == Seen::Ends) {
+        if (last == Seen::Ends) {
           pair.lists.ending.back().to = to;
         } else {
           pair.lists.ending.push_back({from, to});
         }
       }
+      last = seen;
+      edge_on = false;
     }
+    edge_on |= to.kind == CutKind::Support;
     from = to;
   }
 }

@@ -19,7 +19,13 @@ struct VertexViewer::PairLists {
   std::vector<std::int32_t> edge_facets;
   std::vector<CutInterval> ending;       // polygon mode: the viewpoint is one
   std::vector<std::uint8_t> piece_ends;  // of each piece of the open part, so split
-  std::vector<Cut> pierced;              // where Ridge::pierced_by meet the edge
+  // Where a face of the star is edge-on, and on both sides the viewpoint is (is no) end.
+  struct Turn {
+    Cut at;
+    bool ends;
+  };
+  std::vector<Turn> turns;
+  std::vector<Cut> pierced;  // where Ridge::pierced_by meet the edge
 
   void clear() {
     cuts.clear();
@@ -28,6 +34,7 @@ struct VertexViewer::PairLists {
     edge_facets.clear();
     ending.clear();
     piece_ends.clear();
+    turns.clear();
     pierced.clear();
   }
 };

@@ -346,7 +346,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     open = pair.closed.complement();
     if (open.empty()) return;
   }
-  if (pierced_inside(pair, open)) pair.degenerate = true;
+  if (pierced_inside(pair, open) || changes_at_turn(pair, open)) pair.degenerate = true;
   if (pair.mild || pair.degenerate) list_faces(pair);
   pair.degenerate = pair.degenerate || (pair.mild && touching_across(pair));
   if (pair.degenerate) {
@@ -415,6 +415,27 @@ void VertexViewer::split_at_ends(Pair& pair, std::vector<CutInterval>& open) con
     pair.lists.piece_ends.push_back(0);
   }
   open = std::move(pieces);
+}
+
+// In the plane of a face of the star a line may graze between lines that end, or end
+// between lines that graze.
+bool VertexViewer::changes_at_turn(const Pair& pair,
+                                   std::span<const CutInterval> open) const {
+  const LineThrough line{pair.e0, pair.e1};
+  const auto before = [&](const Cut& x, const Cut& y) {
+    return compare(scene_, line, x, y) == Sign::Negative;
+  };
+  return std::ranges::any_of(pair.lists.turns, [&](const PairLists::Turn& turn) {
+    const bool inside = std::ranges::any_of(open, [&](const CutInterval& i) {
+      return before(i.from, turn.at) && before(turn.at, i.to);
+    });
+    if (!inside) return false;
+    const ExactPoint from = exact_point(at_);
+    const ExactPoint to = along(exact_point(pair.e0), exact_point(pair.e1),
+                                exact_parameter(scene_, line, turn.at));
+    const auto ends = blocked_ends(g_, LineScan(scene_, star_->faces, from, to));
+    return !ends || (*ends)[0] != turn.ends;
+  });
 }
 
 bool VertexViewer::corner_drawn_between(const Cut& from, const Cut& to,

@@ -110,6 +110,8 @@ class VertexViewer {
   void add_unsupported_general(Pair& pair);
   [[nodiscard]] bool corner_drawn_between(const Cut& from, const Cut& to,
                                           const LineThrough& edge) const;
+  [[nodiscard]] bool changes_at_turn(const Pair& pair,
+                                     std::span<const CutInterval> open) const;
   void split_at_ends(Pair& pair, std::vector<CutInterval>& open) const;
   [[nodiscard]] bool ends_are_simple(const Pair& pair,
                                      std::span<const CutInterval> open) const;

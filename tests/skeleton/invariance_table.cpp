@@ -1,7 +1,8 @@
 // Says which invariances fail on scenes from seeds, and on how few objects.
 //
 //   invariance_table FIRST LAST [CROWD]     counts of differences by crowd and variant
-//   invariance_table show CROWD SEED VARIANT    the differences, and two OBJ files
+//   invariance_table show CROWD SEED VARIANT    the differences, and OBJ files: the
+//   scene, its variant, and this with the map undone
 //   invariance_table shrink CROWD SEED VARIANT  the same on as few objects as still
 //   differ
 
@@ -114,6 +115,9 @@ std::string failure_of(const PolygonSoup& soup, std::uint64_t seed,
     if (write) {
       write_obj(soup, "scene.obj");
       write_obj(v.soup, "variant.obj");
+      PolygonSoup back = v.soup;
+      for (Point& p : back.vertices) p = v.undo(p);
+      write_obj(back, "variant_in_place.obj");
     }
     if (!text.empty()) return text;
   }

@@ -78,6 +78,56 @@ TEST(Invariances, GroundInNinePieces) {
   expect_alike("slab_plain.obj", "slab_conforming.obj");
 }
 
+// Sheets of other objects that cross at a corner draw nothing there, however they are
+// cut.
+TEST(Invariances, CornerOnSheetsThatCross) {
+  expect_alike("corner_on_sheets_base.obj", "corner_on_sheets_cut.obj");
+}
+
+// A line in the plane of a face at a corner grazes between lines that end there.
+TEST(Invariances, FaceEdgeOnAtACorner) {
+  expect_alike("edge_on_base.obj", {"moved", read("edge_on_cut.obj"),
+                                    [](const Point& p) -> Point {
+                                      return {p[2] + 64, -p[0], p[0] - p[1] + p[2] - 32};
+                                    },
+                                    [](const Point& p) -> Point {
+                                      const double z = p[0] - 64;
+                                      return {-p[1], -p[1] + z - 32 - p[2], z};
+                                    }});
+}
+
+// Of two edges that enter a solid the parts inside see nothing of each other.
+TEST(Invariances, EdgesInASolid) {
+  expect_alike("edges_in_solid_base.obj",
+               {"moved", read("edges_in_solid_cut.obj"),
+                [](const Point& p) -> Point {
+                  return {p[0] + p[1] - 2 * p[2] + 64, -p[2], -p[0] - 32};
+                },
+                [](const Point& p) -> Point {
+                  const double x = -p[2] - 32;
+                  return {x, p[0] - 64 - x - 2 * p[1], -p[1]};
+                }});
+}
+
+// A line in the plane of a facet that an edge on it pierces.
+TEST(Invariances, FacetPiercedByAnEdge) {
+  const PolygonSoup soup = read("pierced_by_edge.obj");
+  PolygonSoup moved = soup;
+  const auto map = [](const Point& p) -> Point {
+    return {p[0] - 0x1p40, p[1] + 0x1p40, p[2]};
+  };
+  for (Point& p : moved.vertices) p = map(p);
+  expect_alike("pierced_by_edge.obj",
+               {"moved", std::move(moved), map, [](const Point& p) -> Point {
+                  return {p[0] + 0x1p40, p[1] - 0x1p40, p[2]};
+                }});
+}
+
+// A line through four edges that arcs of different outer edges end in is one node.
+TEST(Invariances, LineThroughFourEdgesFoundTwice) {
+  expect_alike("order_eeee_a.obj", "order_eeee_b.obj");
+}
+
 // A small share of invariances_soak_test.cpp: about three seconds a scene.
 TEST(Invariances, CrowdedScenesInEveryWriting) {
   EXPECT_EQ(testing::count_alike(Crowd::Overlapping, 2), 10);

@@ -164,10 +164,19 @@ TEST(NodeJoiner, WhatWasForgottenIsNew) {
   Skeleton skeleton;
   NodeJoiner nodes(skeleton);
   const Generators four{edge(1), edge(2), edge(3), edge(4)};
-  const auto first = nodes.join(node(NodeKind::EEEE), four, true);
-  EXPECT_EQ(nodes.join(node(NodeKind::EEEE), four, true), first);
+  const auto first = nodes.join_eeee(node(NodeKind::EEEE), four, true);
+  EXPECT_EQ(nodes.join_eeee(node(NodeKind::EEEE), four, true), first);
   nodes.forget_eeee();
-  EXPECT_NE(nodes.join(node(NodeKind::EEEE), four, true), first);
+  EXPECT_NE(nodes.join_eeee(node(NodeKind::EEEE), four, true), first);
+}
+
+TEST(NodeJoiner, ALineThatMayBeFoundElsewhereIsNotForgotten) {
+  Skeleton skeleton;
+  NodeJoiner nodes(skeleton);
+  const Generators four{edge(1), edge(2), edge(3), edge(4)};
+  const auto first = nodes.join(node(NodeKind::EEEE), four, true);
+  nodes.forget_eeee();
+  EXPECT_EQ(nodes.join(node(NodeKind::EEEE), four, true), first);
 }
 
 }  // namespace
