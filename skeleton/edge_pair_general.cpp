@@ -106,9 +106,11 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
     const auto s = curve.between(stops[i], stops[i + 1]);
     const auto line = s ? curve.points_at(*s) : std::nullopt;
     State here = state_of(line, true);
-    // Edges that enter a solid have parts between which all of a segment is inside.
-    if (here && !begin && first.touched && last.touched && g_.in_material((*line)[0]))
+    // Between parts of two edges that enter a solid all of a segment is inside.
+    if (here && !begin && first.touched && last.touched &&
+        g_.in_material(along((*line)[0], (*line)[1], Rational(1, 2)))) {
       here.reset();
+    }
     if (begin && i > 0) {
       // The arc goes on through a critical line that is free itself.
       const auto stop = curve.points_at(stops[i]);
@@ -126,53 +128,10 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
   return free;
 }
 
-// Where two of the edges are coplanar the lines are a pencil of their plane, through the
-// point in which the third edge crosses it: the parameters of the lines to corners in the
-// plane and to crossings of sides.
 std::vector<Rational> EdgePairs::in_plane_stops(const Outer& outer, const EeeCurve& curve,
                                                 std::span<const int> faces) const {
-  const std::array<std::int32_t, 2>* edges[] = {
-      &outer.points.p, &carriers_.all[curve.middle()].points, &outer.points.q};
-  const auto at = [&](int edge, int k) -> const Point& {
-    return scene_.point((*edges[edge])[k]);
-  };
-  const auto coplanar = [&](int a, int b) {
-    return orient3d(at(a, 0), at(a, 1), at(b, 0), at(b, 1)) == Sign::Zero;
-  };
-  const int other = coplanar(0, 1) ? 1 : coplanar(0, 2) ? 2 : -1;
-  if (other < 0) return {};
-  const int third = 3 - other;
-  const int k = collinear(at(0, 0), at(0, 1), at(other, 0)) ? 1 : 0;
-  const PlaneSide plane({at(0, 0), at(0, 1), at(other, k)});
-  const int off_plane = corner_off(scene_, faces, plane);
-  if (off_plane < 0) return {};
-  const auto point = [&](int edge, int i) { return exact_point(at(edge, i)); };
-  const auto off = [&](const ExactPoint& x) {
-    return exact_orient(point(0, 0), point(0, 1), point(other, k), x);
-  };
-  const Rational from = off(point(third, 0));
-  const Rational to = off(point(third, 1));
-  if (from == to) return {};
-  const ExactPoint centre = along(point(third, 0), point(third, 1), from / (from - to));
-
-  std::vector<ExactPoint> points = plane_crossings(scene_, faces, plane, off_plane);
-  std::vector<int> corners;
-  for (const int f : faces) {
-    for (const int p : scene_.face_points(f)) {
-      if (plane(scene_.point(p)) == Sign::Zero) corners.push_back(p);
-    }
-  }
-  sort_unique(corners);
-  for (const int p : corners) points.push_back(exact_point(scene_.point(p)));
-
-  std::vector<Rational> found;
-  const ExactPoint up = exact_point(scene_.point(off_plane));
-  for (const ExactPoint& x : points) {
-    if (auto s = parameter_towards(centre, x, up, point(0, 0), point(0, 1))) {
-      found.push_back(std::move(*s));
-    }
-  }
-  return found;
+  const auto& middle = carriers_.all[curve.middle()].points;
+  return pencil_stops(scene_, {outer.points.p, middle, outer.points.q}, faces);
 }
 
 }  // namespace sightline::internal

@@ -113,6 +113,8 @@ class EdgePairs {
                                     const CurveCut& cut, int corner, Sign f0) const;
   [[nodiscard]] bool may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
                                     const CurveCut& cut, const FoundNode& node);
+  [[nodiscard]] bool meets_foreign_face(const Outer& outer, const EeeCurve& curve,
+                                        int middle, const CurveCut& cut) const;
   [[nodiscard]] bool any_touched(std::span<const Generator> edges) const;
   void list_contacts(const Outer& outer, const EeeCurve& curve, const CurveCut& cut,
                      FoundNode& node) const;

@@ -64,14 +64,6 @@ Rational parameter_on(const Point& p, const Point& q,
   return -from[axis] / step[axis];
 }
 
-// Where the edge meets what it touches it may lie in the facet.
-bool may_end_in(const Scene& scene, const Ridge& r, int facet) {
-  if (!r.touched) return false;
-  return r.pierced_by.empty() || std::ranges::any_of(r.pierced_by, [&](int face) {
-           return scene.faces()[face].facet == facet;
-         });
-}
-
 }  // namespace
 
 // Polygon mode: which outer contacts of the line at a cut are end contacts, first edge
@@ -237,17 +229,9 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
     std::swap(node.ends[0], node.ends[1]);
   }
   if (cut.kind == CurveCutKind::Far) std::swap(node.segment[0], node.segment[1]);
-  const auto objects = [&](const Generator& x) -> std::span<const std::int32_t> {
-    if (x.kind == GeneratorKind::Vertex) return g_.objects_at(x.id);
-    if (x.kind == GeneratorKind::Face) return {&scene_.facets()[x.id].object, 1};
-    if (x.id < 0) return {};
-    const int r = g_.ridge_of_edge(x.id);
-    if (r >= 0) return g_.ridges()[r].objects;
-    return {&scene_.edges()[x.id].object, 1};
-  };
   for (int a = 0; a < node.count; ++a) {
     for (int b = a + 1; b < node.count; ++b) {
-      node.self |= share(objects(node.generators[a]), objects(node.generators[b]));
+      node.self |= share(g_.objects_of(node.generators[a]), g_.objects_of(node.generators[b]));
     }
   }
   return node;
@@ -264,7 +248,7 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
   };
   if (cut.kind == CurveCutKind::Given) return true;
   // Where edges of touching solids cross, a line meets both at one point.
-  if (node.elsewhere) return true;
+  if (node.elsewhere || meets_foreign_face(outer, curve, middle, cut)) return true;
   for (const Constraint& c : constraints_) {
     if (c.values.constant() && c.values.sign0 == Sign::Zero) return true;
     if (cut.kind == CurveCutKind::Start ? c.zero0
@@ -289,9 +273,6 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
   }
   if (cut.kind == CurveCutKind::OnFirst || cut.kind == CurveCutKind::OnPlane) {
     if (carriers_.touched_facets[cut.feature] != 0) return true;
-    for (const int ridge : {outer.first, middle, outer.last}) {
-      if (may_end_in(scene_, g_.ridges()[ridge], cut.feature)) return true;
-    }
     // A corner w of the face is on the line iff it is in the plane of P(s) and the last
     // edge, or that of P(s) and the middle edge where the face is at the last one.
     const auto& at_last = g_.ridges()[outer.last].facets;
@@ -331,6 +312,33 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
     }
   }
   return false;
+}
+
+// Whether at a cut one of the contacts can lie on a face that touches its edge.
+bool EdgePairs::meets_foreign_face(const Outer& outer, const EeeCurve& curve, int middle,
+                                   const CurveCut& cut) const {
+  const auto& o = outer.points;
+  const auto meets = [&](const Ridge& ridge, bool last) {
+    if (!ridge.touched) return false;
+    return ridge.pierced_by.empty() || std::ranges::any_of(ridge.pierced_by, [&](int face) {
+      const auto& edge = last ? o.q : o.p;
+      const PlaneValues v = plane_values(g_.face_plane(face), o.at(edge[0]), o.at(edge[1]));
+      const auto points = plane_points(scene_, face);
+      const BoundedLinear l =
+          last ? curve.at_last_edge(v.at0, v.at1, points)
+               : BoundedLinear{v.at0.value, v.at1.value, v.at0.error,
+                               v.at1.error, v.sign0,     v.sign1};
+      if (l.sign0 != -l.sign1 || l.sign0 == Sign::Zero) return true;
+      CurveCut at{last ? CurveCutKind::OnFar : CurveCutKind::OnPlane, false,
+                  scene_.faces()[face].facet, points, 0, 1};
+      enclose_root(l, at);
+      return curve.compare(at, cut) == Sign::Zero;
+    });
+  };
+  // A line through the inside of a face at the middle edge is blocked, but for those in
+  // the face's plane.
+  return meets(g_.ridges()[outer.first], false) || meets(g_.ridges()[outer.last], true) ||
+         meets(g_.ridges()[middle], false);
 }
 
 // The same beyond the outer edges.

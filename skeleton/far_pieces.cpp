@@ -7,6 +7,7 @@
 #include "skeleton/eee_curve_internal.h"
 #include "skeleton/far_pieces_internal.h"
 #include "skeleton/node_contacts_internal.h"
+#include "skeleton/plane_crossings_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -140,9 +141,9 @@ class Envelope {
  public:
   using CutType = typename Family::CutType;
 
-  Envelope(const Generators& g, const Family& family, std::vector<Met<CutType>>& met,
-           const std::array<double, 2>& range)
-      : g_(g), family_(family), met_(met), range_(range) {}
+  Envelope(const Generators& g, const FaceCrossings& crossings, const Family& family,
+           std::vector<Met<CutType>>& met, const std::array<double, 2>& range)
+      : g_(g), crossings_(crossings), family_(family), met_(met), range_(range) {}
 
   std::optional<std::vector<FarPiece>> pieces() {
     number_cuts();
@@ -244,7 +245,7 @@ class Envelope {
     return at_[k + 1] - at_[k] < kShortestPiece;
   }
 
-  // False when the faces are met in one point.
+  // False when the faces are met in one point, or may be somewhere in the part.
   bool put(int i, int k) {
     int& best = nearest_[met_[i].wing][k];
     if (too_short(static_cast<std::size_t>(k))) return true;
@@ -255,7 +256,10 @@ class Envelope {
     const auto& m = met_[i];
     const auto& n = met_[best];
     Order order = order_by_planes(g_, m.face, m.near, n.face, n.near);
-    if (order == Order::Unknown) order = order_at(k, m.face, n.face, m.wing);
+    if (order == Order::Unknown) {
+      if (crossings_.cross(m.face, n.face)) return false;
+      order = order_at(k, m.face, n.face, m.wing);
+    }
     if (order == Order::First) best = i;
     return order != Order::Same && order != Order::Unknown;
   }
@@ -271,6 +275,7 @@ class Envelope {
   }
 
   const Generators& g_;
+  const FaceCrossings& crossings_;
   const Family& family_;
   const std::vector<Met<CutType>>& met_;
   std::array<double, 2> range_;
@@ -558,7 +563,60 @@ class EeeFamily {
     }
   }
 
+  // Of lines in one plane, those to corners there and to crossings of sides.
+  void add_stops_in_plane(std::span<const int> faces, std::vector<double>& out) const {
+    const auto& middle = carriers_.all[middle_].points;
+    for (const Rational& s : pencil_stops(scene_, {pair_.p, middle, pair_.q}, faces)) {
+      out.push_back(s.convert_to<double>());
+    }
+  }
+
+  // The parameters of the lines that meet a segment in which faces cross; where all lines
+  // lie in a plane with it, those of the lines to its ends.
+  void add_stops(const std::array<ExactPoint, 2>& segment, std::vector<double>& out) const {
+    if (add_meeting(segment, out)) return;
+    for (const ExactPoint& end : segment) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        ExactPoint off_plane = end;
+        off_plane[i] += 1;
+        if (add_meeting({end, off_plane}, out)) break;
+      }
+    }
+  }
+
  private:
+  // Of the lines that meet the line of a segment; false when all do.
+  bool add_meeting(const std::array<ExactPoint, 2>& segment,
+                   std::vector<double>& out) const {
+    const auto& m = carriers_.all[middle_].points;
+    const auto at = [&](std::int32_t p) { return exact_point(pair_.at(p)); };
+    const auto form = [&](const ExactPoint& g0, const ExactPoint& g1) {
+      Form<Rational> values;
+      for (int a = 0; a < 2; ++a) {
+        for (int b = 0; b < 2; ++b) {
+          values.f[a][b] = exact_orient(at(pair_.p[a]), at(pair_.q[b]), g0, g1);
+        }
+      }
+      return values;
+    };
+    const auto h = resultant(form(at(m[0]), at(m[1])), form(segment[0], segment[1]));
+    const Rational a = h.h0 - h.h1 + h.h2;
+    const Rational b = h.h1 - 2 * h.h0;
+    const Rational d = b * b - 4 * a * h.h0;
+    if (d < 0) return true;
+    // (-b -+ root) / 2a, without cancellation; all scaled, since squares may overflow.
+    const Rational size = std::max({abs(a), abs(b), abs(h.h0)});
+    if (size == 0) return false;
+    const double root = std::sqrt((d / (size * size)).convert_to<double>());
+    const double middle = (b / size).convert_to<double>();
+    const double q = -0.5 * (middle + std::copysign(root, middle));
+    for (const double s : {q / (a / size).convert_to<double>(),
+                           (h.h0 / size).convert_to<double>() / q}) {
+      if (s > range_[0] && s < range_[1]) out.push_back(s);
+    }
+    return true;
+  }
+
   [[nodiscard]] std::array<std::int32_t, 2> points_of(int edge) const {
     const auto& p = scene_.edges()[edge].points;
     return {p[0], p[1]};
@@ -696,7 +754,7 @@ std::optional<std::vector<FarPiece>> FarPieces::of(const SkeletonArc& arc) const
   }
   std::vector<Met<Cut>> met;
   if (!add_beyond(g_, chains, arc.ends, family, met)) return std::nullopt;
-  return Envelope<EvFamily>(g_, family, met, arc.range).pieces();
+  return Envelope<EvFamily>(g_, crossings_, family, met, arc.range).pieces();
 }
 
 std::optional<std::vector<FarPiece>> FarPieces::of(const EeeArc& arc) const {
@@ -712,7 +770,7 @@ std::optional<std::vector<FarPiece>> FarPieces::of(const EeeArc& arc) const {
   if (!add_beyond(g_, chains_of(family, arc.range), arc.ends, family, met)) {
     return std::nullopt;
   }
-  auto pieces = Envelope<EeeFamily>(g_, family, met, arc.range).pieces();
+  auto pieces = Envelope<EeeFamily>(g_, crossings_, family, met, arc.range).pieces();
   if (pieces && family.left_out()) {
     for (FarPiece& piece : *pieces) piece.bounds_all = false;
   }
@@ -737,6 +795,29 @@ std::array<std::vector<int>, 2> FarPieces::end_faces(const EeeArc& arc) const {
   return faces;
 }
 
+// Of crossings of these faces.
+template <class Family>
+void FarPieces::add_crossing_stops(const Family& family, std::span<const int> faces,
+                                   std::vector<double>& out) const {
+  if (crossings_.empty() || faces.empty()) return;
+  Box box = g_.face_box(faces[0]);
+  for (const int f : faces) {
+    for (int i = 0; i < 3; ++i) {
+      box.min[i] = std::min(box.min[i], g_.face_box(f).min[i]);
+      box.max[i] = std::max(box.max[i], g_.face_box(f).max[i]);
+    }
+  }
+  crossings_.tree().traverse(
+      [&](const Box& other) { return boxes_meet(box, other); },
+      [&](std::uint32_t item) {
+        const FaceCrossing& c = crossings_.at(item);
+        if (std::ranges::binary_search(faces, c.f) &&
+            std::ranges::binary_search(faces, c.h)) {
+          family.add_stops(c.segment, out);
+        }
+      });
+}
+
 std::vector<double> FarPieces::stops(const EeeArc& arc) const {
   EeeFamily family(g_, carriers_, arc);
   std::vector<int> faces;
@@ -753,6 +834,8 @@ std::vector<double> FarPieces::stops(const EeeArc& arc) const {
   }
   std::vector<double> found;
   for (const int f : faces) family.add_stops(f, found);
+  family.add_stops_in_plane(faces, found);
+  add_crossing_stops(family, faces, found);
   std::sort(found.begin(), found.end());
   std::vector<double> out{arc.range[0]};
   for (const double s : found) {

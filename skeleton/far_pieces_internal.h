@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "skeleton/edge_pair_internal.h"
+#include "skeleton/face_crossings_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/skeleton.h"
 
@@ -41,11 +42,12 @@ inline constexpr double kShortestPiece = 4 * kRangeError;
 /// Finds pieces, one arc after the other.  Keeps references; immutable.
 class FarPieces {
  public:
-  FarPieces(const Generators& generators, const Carriers& carriers)
-      : g_(generators), carriers_(carriers) {}
+  FarPieces(const Generators& generators, const Carriers& carriers,
+            const FaceCrossings& crossings)
+      : g_(generators), carriers_(carriers), crossings_(crossings) {}
 
   /// The pieces in order, neighbours different; nullopt where some sign is zero all along
-  /// or two faces are met in one point, or where the faces at an end contact change along
+  /// or two faces are met in one point or cross each other, or where the faces at an end contact change along
   /// the arc: then the contacts have to be asked.
   [[nodiscard]] std::optional<std::vector<FarPiece>> of(const SkeletonArc& arc) const;
   [[nodiscard]] std::optional<std::vector<FarPiece>> of(const EeeArc& arc) const;
@@ -60,8 +62,13 @@ class FarPieces {
   [[nodiscard]] std::vector<double> stops(const EeeArc& arc) const;
 
  private:
+  template <class Family>
+  void add_crossing_stops(const Family& family, std::span<const int> faces,
+                          std::vector<double>& out) const;
+
   const Generators& g_;
   const Carriers& carriers_;
+  const FaceCrossings& crossings_;
 };
 
 }  // namespace sightline::internal

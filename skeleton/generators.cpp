@@ -248,6 +248,15 @@ void Generators::find_inside(const Request& request, Stage& stage) {
   for (const auto flag : inside_) inside_count_ += flag;
 }
 
+std::span<const std::int32_t> Generators::objects_of(const Generator& x) const {
+  if (x.kind == GeneratorKind::Vertex) return objects_at(x.id);
+  if (x.kind == GeneratorKind::Face) return {&scene_->facets()[x.id].object, 1};
+  if (x.id < 0) return {};
+  const int ridge = ridge_of_edge_[x.id];
+  if (ridge >= 0) return ridges_[ridge].objects;
+  return {&scene_->edges()[x.id].object, 1};
+}
+
 bool Generators::in_material(const ExactPoint& p) const {
   return internal::in_material(*scene_, *solids_, p);
 }

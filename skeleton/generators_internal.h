@@ -130,6 +130,14 @@ class Generators {
   /// Ridge number of a scene edge (the same for coinciding ones; of several gaps that in
   /// which lines graze, or the first), -1 when no line has a contact there.
   [[nodiscard]] int ridge_of_edge(int edge) const { return ridge_of_edge_[edge]; }
+  /// An edge as lines name it: the same for all that coincide.
+  [[nodiscard]] Generator named(int edge) const {
+    const int ridge = ridge_of_edge_[edge];
+    return {GeneratorKind::Edge, ridge < 0 ? edge : ridges_[ridge].edge};
+  }
+  /// The objects of a corner, of all edges that coincide with an edge, of a facet;
+  /// ascending.  Empty for an edge with number -1.
+  [[nodiscard]] std::span<const std::int32_t> objects_of(const Generator& x) const;
   [[nodiscard]] std::span<const Star> stars() const { return stars_; }
   /// Position in stars() of a corner point, -1 for other points.
   [[nodiscard]] int star_of_point(int point) const { return star_of_point_[point]; }

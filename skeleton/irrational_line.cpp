@@ -66,9 +66,7 @@ class IrrationalScan {
     for (std::size_t i = starts_[contact]; i < starts_[contact + 1]; ++i) {
       const Meeting& m = meetings_[i];
       const int edge = m.side < 0 ? -1 : scene_.edge_of_side(m.face, m.side);
-      if (edge < 0) continue;
-      const int ridge = g_.ridge_of_edge(edge);
-      found.push_back({GeneratorKind::Edge, ridge < 0 ? edge : g_.ridges()[ridge].edge});
+      if (edge >= 0) found.push_back(g_.named(edge));
     }
     sort_unique(found);
     return found;
@@ -215,8 +213,7 @@ IrrationalScan scan_of(const Generators& g, const ExactLine& line,
 
 // The contact that has the edge, -1 for none.
 int find_contact(const Generators& g, const IrrationalScan& scan, int edge) {
-  const int ridge = g.ridge_of_edge(edge);
-  const Generator wanted{GeneratorKind::Edge, ridge < 0 ? edge : g.ridges()[ridge].edge};
+  const Generator wanted = g.named(edge);
   for (int i = 0; i < scan.size(); ++i) {
     const auto here = scan.generators(i);
     if (std::find(here.begin(), here.end(), wanted) != here.end()) return i;

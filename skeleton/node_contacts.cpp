@@ -9,19 +9,56 @@
 namespace sightline::internal {
 namespace {
 
-// What a contact is made of: corners, edges that are not flat, faces the line lies in.
+// Positions on a line, which is given by its points at 0 and 1.
+struct Reach {
+  const std::array<ExactPoint, 2>& line;
+  std::optional<Rational> from, to;  // none: without bound
+
+  [[nodiscard]] bool has(const Rational& t) const {
+    return (!from || *from <= t) && (!to || t <= *to);
+  }
+  [[nodiscard]] bool has(const ExactPoint& p) const {
+    const ExactPoint way = exact_difference(line[1], line[0]);
+    std::size_t axis = 0;
+    while (axis < 2 && way[axis] == 0) ++axis;
+    return has(Rational((p[axis] - line[0][axis]) / way[axis]));
+  }
+};
+
+// Faces of the contact that the line meets within reach, ascending.
+std::vector<int> faces_within(const LineScan& scan, int contact, const Reach& reach) {
+  const std::vector<Rational> at = scan.instants(contact);
+  std::vector<int> faces;
+  const auto add = [&](const Rational& t) {
+    const auto here = scan.faces_at(contact, t);
+    faces.insert(faces.end(), here.begin(), here.end());
+  };
+  for (std::size_t k = 0; k < at.size(); ++k) {
+    if (!reach.has(at[k])) continue;
+    add(at[k]);
+    if (k > 0 && reach.has(at[k - 1])) add((at[k - 1] + at[k]) / 2);
+  }
+  sort_unique(faces);
+  return faces;
+}
+
+// What a contact is made of, within reach: corners, edges that are not flat, faces the
+// line lies in.
 std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
-                                     int contact) {
+                                     int contact, const Reach* reach = nullptr) {
   const Scene& scene = g.scene();
   std::vector<Generator> found;
   std::vector<int> facets;
   const auto add_edge = [&](int edge) {
-    if (edge < 0) return;
-    const int ridge = g.ridge_of_edge(edge);
-    found.push_back({GeneratorKind::Edge, ridge < 0 ? edge : g.ridges()[ridge].edge});
+    if (edge >= 0) found.push_back(g.named(edge));
   };
-  const auto touches = scan.touches(contact);
-  for (const Touch& t : touches) {
+  const bool bounded = reach != nullptr && (reach->from || reach->to);
+  const auto near = bounded ? faces_within(scan, contact, *reach) : std::vector<int>{};
+  const auto in_reach = [&](int face) {
+    return !bounded || std::ranges::binary_search(near, face);
+  };
+  for (const Touch& t : scan.touches(contact)) {
+    if (!in_reach(t.face)) continue;
     const auto corners = scene.face_points(t.face);
     if (t.kind == TouchKind::Corner) {
       const int p = corners[t.index];
@@ -41,7 +78,8 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
     }
   }
   for (const int p : scan.edge_on_corners(contact)) {
-    if (g.star_of_point(p) >= 0) found.push_back({GeneratorKind::Vertex, p});
+    const bool reached = !bounded || reach->has(exact_point(scene.point(p)));
+    if (reached && g.star_of_point(p) >= 0) found.push_back({GeneratorKind::Vertex, p});
   }
   sort_unique(facets);
   // A side through which the line leaves an edge-on face says nothing new.
@@ -155,9 +193,15 @@ bool is_entered(const LineScan& scan, int contact, int step) {
                   : !scan.blocked_between(contact, at[n - 2], at[n - 1] + 1);
 }
 
+// Where the free segment around the middle of [0, 1] stops in a contact that it meets on
+// its way back (step -1) or on (1); nullopt where it passes.
+std::optional<Rational> stop_in(const LineScan& scan, int contact, int step) {
+  return blocked_beyond(scan, contact, Rational(1, 2), step);
+}
+
 // The last contact that the maximal free segment meets, from one that it meets on.
 int last_contact(const LineScan& scan, int contact, int step) {
-  while (!scan.blocked(contact)) {
+  while (!stop_in(scan, contact, step)) {
     const int next = contact + step;
     if (next < 0 || next >= scan.size()) break;
     if (scan.blocked(next) && !is_entered(scan, next, step)) break;
@@ -202,20 +246,6 @@ std::optional<NodeKind> kind_of(std::vector<std::vector<Generator>> groups) {
   return std::nullopt;
 }
 
-std::vector<std::int32_t> objects_of(const Generators& g, const Generator& x) {
-  const Scene& scene = g.scene();
-  if (x.kind == GeneratorKind::Vertex) {
-    const auto o = g.objects_at(x.id);
-    return {o.begin(), o.end()};
-  }
-  if (x.kind == GeneratorKind::Edge) {
-    const int ridge = g.ridge_of_edge(x.id);
-    if (ridge >= 0) return g.ridges()[ridge].objects;
-    return {scene.edges()[x.id].object};
-  }
-  return {scene.facets()[x.id].object};
-}
-
 // Two contacts on one and the same object: all generators of each are on it alone.
 bool two_on_one_object(const Generators& g,
                        const std::vector<std::vector<Generator>>& groups) {
@@ -223,7 +253,7 @@ bool two_on_one_object(const Generators& g,
   for (const auto& group : groups) {
     std::vector<std::int32_t> o;
     for (const Generator& x : group) {
-      const auto more = objects_of(g, x);
+      const auto more = g.objects_of(x);
       o.insert(o.end(), more.begin(), more.end());
     }
     sort_unique(o);
@@ -367,6 +397,23 @@ std::vector<int> faces_near_line(const Generators& g, const Point& a, const Poin
   return found;
 }
 
+std::optional<Rational> blocked_beyond(const LineScan& scan, int contact,
+                                       const Rational& start, int step) {
+  if (!scan.blocked(contact)) return std::nullopt;
+  std::vector<Rational> at = scan.instants(contact);
+  if (step < 0) std::reverse(at.begin(), at.end());
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    const Rational& t = at[i];
+    if (step > 0 ? t <= start : start <= t) continue;
+    const Rational beyond =
+        i + 1 < at.size() ? Rational((t + at[i + 1]) / 2) : Rational(t + step);
+    const bool blocked = step > 0 ? scan.blocked_between(contact, start, beyond)
+                                  : scan.blocked_between(contact, beyond, start);
+    if (blocked) return t;
+  }
+  return std::nullopt;
+}
+
 bool is_free(const LineScan& scan) {
   for (int i = 0; i < scan.size(); ++i) {
     if (meets_segment(scan, i) && blocks_segment(scan, i)) return false;
@@ -450,7 +497,7 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   const auto go_on = [&](int contact, int step) {
     const int at = last_contact(scan, contact, step);
     const int next = at + step;
-    if (!polygon || grazes || scan.blocked(at)) return at;
+    if (!polygon || grazes || stop_in(scan, at, step)) return at;
     const bool ends = next >= 0 && next < scan.size() && scan.blocked(next) &&
                       !generators_of(g, scan, next).empty();
     return ends ? next : at;
@@ -459,8 +506,10 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   if (!stops_at[1]) last = go_on(last, 1);
   std::vector<std::vector<Generator>> groups;
   std::vector<std::vector<std::int32_t>> crossed;
+  // What lies behind the foot of a wall, in the plane of another, is not reached.
+  const Reach reach{line, stop_in(scan, first, -1), stop_in(scan, last, 1)};
   for (int c = first; c <= last; ++c) {
-    groups.push_back(generators_of(g, scan, c));
+    groups.push_back(generators_of(g, scan, c, &reach));
     crossed.push_back(crossed_facets(g, scan, c));
   }
   NodeContacts node = node_along(g, groups);
@@ -471,11 +520,10 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   if (ends_one_arc(node.kind)) return node;
   if (node.kind == NodeKind::Degenerate) node.line = name_of_line(line);
   // A line along a face that ends where the face does.
-  const bool stops = scan.blocked(first) || scan.blocked(last);
+  const bool stops = reach.from || reach.to;
   node.end = end || (node.kind == NodeKind::FEE && stops);
   if (polygon && (!grazes || node.end)) {
-    const std::array<bool, 2> ends{stops_at[0] || scan.blocked(first),
-                                   stops_at[1] || scan.blocked(last)};
+    const std::array<bool, 2> ends{stops_at[0] || reach.from, stops_at[1] || reach.to};
     node.ends = {ends[node.turned ? 1 : 0], ends[node.turned ? 0 : 1]};
     node.end = node.end || ends[0] || ends[1];
   }

@@ -25,6 +25,12 @@ namespace sightline::internal {
 [[nodiscard]] std::vector<int> faces_near_line(const Generators& generators,
                                                const Point& a, const Point& b);
 
+/// Where a contact blocks the line beyond position `start`, going up or down (`step` 1 or
+/// -1): the first instant past which the part from `start` on is blocked; nullopt where
+/// the line passes.  Requires that the contact does not block before `start`.
+[[nodiscard]] std::optional<Rational> blocked_beyond(const LineScan& scan, int contact,
+                                                     const Rational& start, int step);
+
 /// No contact blocks the closed segment [0, 1] of the line.
 [[nodiscard]] bool is_free(const LineScan& scan);
 

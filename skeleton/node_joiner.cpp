@@ -48,7 +48,8 @@ void NodeJoiner::found_again(std::uint32_t number, const SkeletonNode& node,
   SkeletonNode& known = out_.nodes[number];
   if (out_.events == EventMode::Solid) {
     // From another contact of the line: that it ends at one of them counts.
-    if (known.kind == NodeKind::Degenerate) known.end |= node.end;
+    if (known.kind == NodeKind::Degenerate || known.kind == NodeKind::EEEE)
+      known.end |= node.end;
     return;
   }
   if (grazes_[number] && !grazes) return;

@@ -86,4 +86,49 @@ std::optional<Rational> parameter_towards(const ExactPoint& eye, const ExactPoin
   return Rational(a / (a - b));
 }
 
+std::vector<Rational> pencil_stops(
+    const Scene& scene, const std::array<std::array<std::int32_t, 2>, 3>& edges,
+    std::span<const int> faces) {
+  const auto at = [&](int edge, int k) -> const Point& {
+    return scene.point(edges[edge][k]);
+  };
+  const auto coplanar = [&](int a, int b) {
+    return orient3d(at(a, 0), at(a, 1), at(b, 0), at(b, 1)) == Sign::Zero;
+  };
+  const int other = coplanar(0, 1) ? 1 : coplanar(0, 2) ? 2 : -1;
+  if (other < 0) return {};
+  const int third = 3 - other;
+  const int k = collinear(at(0, 0), at(0, 1), at(other, 0)) ? 1 : 0;
+  const PlaneSide plane({at(0, 0), at(0, 1), at(other, k)});
+  const int off_plane = corner_off(scene, faces, plane);
+  if (off_plane < 0) return {};
+  const auto point = [&](int edge, int i) { return exact_point(at(edge, i)); };
+  const auto off = [&](const ExactPoint& x) {
+    return exact_orient(point(0, 0), point(0, 1), point(other, k), x);
+  };
+  const Rational from = off(point(third, 0));
+  const Rational to = off(point(third, 1));
+  if (from == to) return {};
+  const ExactPoint centre = along(point(third, 0), point(third, 1), from / (from - to));
+
+  std::vector<ExactPoint> points = plane_crossings(scene, faces, plane, off_plane);
+  std::vector<int> corners;
+  for (const int f : faces) {
+    for (const int p : scene.face_points(f)) {
+      if (plane(scene.point(p)) == Sign::Zero) corners.push_back(p);
+    }
+  }
+  sort_unique(corners);
+  for (const int p : corners) points.push_back(exact_point(scene.point(p)));
+
+  std::vector<Rational> found;
+  const ExactPoint up = exact_point(scene.point(off_plane));
+  for (const ExactPoint& x : points) {
+    if (auto s = parameter_towards(centre, x, up, point(0, 0), point(0, 1))) {
+      found.push_back(std::move(*s));
+    }
+  }
+  return found;
+}
+
 }  // namespace sightline::internal

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,5 +34,13 @@ namespace sightline::internal {
                                                         const ExactPoint& off_plane,
                                                         const ExactPoint& e0,
                                                         const ExactPoint& e1);
+
+/// Where two of three edges are coplanar, the lines that meet all are a pencil of their
+/// plane, through the point in which the third edge crosses it: the parameters on the
+/// first edge of the lines to corners in the plane and to crossings of sides.  Empty where
+/// no two are.  The first edge must be one of the two.
+[[nodiscard]] std::vector<Rational> pencil_stops(
+    const Scene& scene, const std::array<std::array<std::int32_t, 2>, 3>& edges,
+    std::span<const int> faces);
 
 }  // namespace sightline::internal

@@ -111,10 +111,23 @@ bool cover_edge(std::vector<std::array<Rational, 2>> stretches) {
   return reached >= 1;
 }
 
-std::vector<std::int32_t> facets_of(const Scene& scene,
-                                    std::span<const std::int32_t> faces) {
+// Of all faces at the edge and at those that coincide with it, which are its neighbours in
+// the scene's order; ridges or not.
+std::vector<std::int32_t> facets_along(const Scene& scene, int edge) {
+  const auto edges = scene.edges();
+  const auto coincides = [&](int k) {
+    return k >= 0 && k < static_cast<int>(edges.size()) &&
+           edges[k].points == edges[edge].points;
+  };
+  int first = edge;
+  while (coincides(first - 1)) --first;
   std::vector<std::int32_t> facets;
-  for (const int f : faces) facets.push_back(scene.faces()[f].facet);
+  for (int k = first; coincides(k); ++k) {
+    for (const Edge::Side& side : edges[k].sides) {
+      facets.push_back(scene.faces()[side.face].facet);
+    }
+  }
+  sort_unique(facets);
   return facets;
 }
 
@@ -312,8 +325,6 @@ bool Generators::join_ridge(int edge, const EdgeFaces& at) {
   ridge.touched = true;
   ridge.pierced_by.clear();
   ridge.objects.push_back(e.object);
-  const auto facets = facets_of(*scene_, at.faces);
-  ridge.all_facets.insert(ridge.all_facets.end(), facets.begin(), facets.end());
   ridge_of_edge_[edge] = static_cast<int>(ridges_.size() - 1);
   if (!polygon()) return true;
   // Named and grazed as in solid mode, which knows only edges that lines graze.
@@ -321,12 +332,10 @@ bool Generators::join_ridge(int edge, const EdgeFaces& at) {
   if (!ridge.can_graze() && grazes) {
     std::vector<Box> unused;
     std::vector<std::int32_t> objects = std::move(ridge.objects);
-    std::vector<std::int32_t> all_facets = std::move(ridge.all_facets);
     const std::int32_t first = ridge.edge;
     ridges_.pop_back();
     add_ridge(edge, at, unused);
     ridges_.back().objects = std::move(objects);
-    ridges_.back().all_facets = std::move(all_facets);
     ridges_.back().touched = true;
     const bool crease = shows_crease(e.points, first, edge);
     ridges_.back().ends_in_front = ridges_.back().ends_behind = crease;
@@ -370,7 +379,7 @@ void Generators::add_ridge(int edge, const EdgeFaces& at, std::vector<Box>& boxe
                      PlaneSide({e0, e1, s.point(thirds[b])}),
                      {thirds[a], thirds[b]},
                      {s.faces()[at.faces[a]].facet, s.faces()[at.faces[b]].facet},
-                     facets_of(s, at.faces),
+                     facets_along(s, edge),
                      at.touched});
   ridges_.back().pierced_by = at.pierced_by;
   boxes.push_back(box_of(std::array<Point, 2>{e0, e1}));
@@ -415,7 +424,7 @@ void Generators::add_gaps(int edge, const EdgeFaces& at, std::vector<Box>& boxes
                 PlaneSide({e0, e1, s.point(b.third)}),
                 {a.third, b.third},
                 {a.facet, b.facet},
-                facets_of(s, at.faces),
+                facets_along(s, edge),
                 false};
     ridge.grazes = false;
     ridge.ends_behind = true;

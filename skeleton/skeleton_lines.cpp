@@ -11,6 +11,7 @@
 #include "skeleton/irrational_line_internal.h"
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/node_line_internal.h"
+#include "skeleton/plane_crossings_internal.h"
 
 namespace sightline {
 namespace {
@@ -28,24 +29,6 @@ ExactPoint along(const ExactPoint& a, const ExactPoint& b, const Rational& s) {
 Point rounded(const ExactPoint& p) {
   return {p[0].convert_to<double>(), p[1].convert_to<double>(),
           p[2].convert_to<double>()};
-}
-
-// Where a contact that holds position `start` blocks the line beyond it, going up or down
-// (`step` 1 or -1): the first instant past which the part from `start` on blocks.
-std::optional<Rational> blocked_beyond(const LineScan& scan, int contact,
-                                       const Rational& start, int step) {
-  std::vector<Rational> instants = scan.instants(contact);
-  if (step < 0) std::reverse(instants.begin(), instants.end());
-  for (std::size_t i = 0; i < instants.size(); ++i) {
-    const Rational& t = instants[i];
-    if (step > 0 ? t <= start : t >= start) continue;
-    const Rational beyond = i + 1 < instants.size() ? Rational((t + instants[i + 1]) / 2)
-                                                    : Rational(t + step);
-    const bool blocked = step > 0 ? scan.blocked_between(contact, start, beyond)
-                                  : scan.blocked_between(contact, beyond, start);
-    if (blocked) return t;
-  }
-  return std::nullopt;
 }
 
 // The free segment through positions 0 and 1, which is free itself but for the contacts
@@ -70,18 +53,18 @@ FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends =
       break;
     }
     if (through) {
-      if (const auto t = scan.from(c) < 0 && scan.blocked(c)
-                             ? blocked_beyond(scan, c, 0, -1)
-                             : std::nullopt) {
+      const auto t = scan.from(c) < 0 ? blocked_beyond(scan, c, 0, -1) : std::nullopt;
+      if (t) {
         out.from = t->convert_to<double>();
         out.from_faces = scan.faces_at(c, *t);
         break;
       }
       continue;
     }
-    if (scan.blocked(c)) {
-      out.from = scan.to(c).convert_to<double>();
-      out.from_faces = scan.faces_at(c, scan.to(c));
+    if (const auto t = blocked_beyond(scan, c, 0, -1)) {
+      out.from = t->convert_to<double>();
+      out.from_faces = scan.faces_at(c, *t);
+      if (*t < scan.to(c)) before.push_back(c);  // along a wall to the foot of another
       break;
     }
     before.push_back(c);
@@ -97,18 +80,18 @@ FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends =
     }
     if (scan.from(c) <= 1) {
       add(c);
-      if (scan.to(c) > 1 && scan.blocked(c)) {
-        if (const auto t = blocked_beyond(scan, c, 1, 1)) {
-          out.to = t->convert_to<double>();
-          out.to_faces = scan.faces_at(c, *t);
-          break;
-        }
+      const auto t = scan.to(c) > 1 ? blocked_beyond(scan, c, 1, 1) : std::nullopt;
+      if (t) {
+        out.to = t->convert_to<double>();
+        out.to_faces = scan.faces_at(c, *t);
+        break;
       }
       continue;
     }
-    if (scan.blocked(c)) {
-      out.to = scan.from(c).convert_to<double>();
-      out.to_faces = scan.faces_at(c, scan.from(c));
+    if (const auto t = blocked_beyond(scan, c, 1, 1)) {
+      out.to = t->convert_to<double>();
+      out.to_faces = scan.faces_at(c, *t);
+      if (scan.from(c) < *t) add(c);
       break;
     }
     add(c);
@@ -124,7 +107,8 @@ struct SkeletonLines::Impl {
       : scene(s),
         generators(s, EventMode::Polygon, request),
         carriers(generators),
-        far(generators, carriers) {}
+        crossings(generators),
+        far(generators, carriers, crossings) {}
 
   [[nodiscard]] FreeSegment line(const ExactPoint& a, const ExactPoint& b,
                                  const std::array<bool, 2>& ends) const {
@@ -212,9 +196,40 @@ struct SkeletonLines::Impl {
     return out;
   }
 
+  // Where lines of an EV arc meet two faces in one point at which these cross, or pass an
+  // end of a crossing in their plane.
+  template <class InWedge>
+  void add_crossings(const InWedge& in_wedge, const SkeletonArc& arc, int off_plane,
+                     std::deque<Rational>& positions,
+                     std::vector<internal::Cut>& cuts) const {
+    if (crossings.empty() || off_plane < 0) return;
+    const ExactPoint v = point(arc.vertex);
+    const ExactPoint e0 = point(scene.edges()[arc.edge].points[0]);
+    const ExactPoint e1 = point(scene.edges()[arc.edge].points[1]);
+    const ExactPoint off = point(off_plane);
+    const std::size_t known = cuts.size();
+    const auto add_towards = [&](const ExactPoint& at) {
+      auto s = internal::parameter_towards(v, at, off, e0, e1);
+      if (!s) return;
+      positions.push_back(std::move(*s));
+      cuts.push_back(internal::exact_cut(positions.back()));
+    };
+    crossings.tree().traverse(in_wedge, [&](std::uint32_t item) {
+      const auto& [a, b] = crossings.at(item).segment;
+      const Rational x = internal::exact_orient(v, e0, e1, a);
+      const Rational y = internal::exact_orient(v, e0, e1, b);
+      if (x.sign() * y.sign() < 0) add_towards(along(a, b, x / (x - y)));
+      if (x == 0) add_towards(a);
+      if (y == 0) add_towards(b);
+    });
+    if (cuts.size() == known) return;
+    std::ranges::sort(cuts, {}, [](const internal::Cut& c) { return c.parameter(); });
+  }
+
   const Scene& scene;
   internal::Generators generators;
   internal::Carriers carriers;
+  internal::FaceCrossings crossings;
   internal::FarPieces far;
 };
 
@@ -276,16 +291,17 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) 
       internal::plane_from(v, point_at(arc.range[0]), v + (e1 - e0).cross(e0 - v).eval());
   const internal::BoundedPlane second =
       internal::plane_from(v, point_at(arc.range[1]), v + (e1 - e0).cross(e0 - v).eval());
+  const auto in_wedge = [&](const internal::Box& box) {
+    const auto b = internal::centred(box);
+    const std::array<double, 3> c{b.centre[0] - v[0], b.centre[1] - v[1],
+                                  b.centre[2] - v[2]};
+    const bool left = first.negative_on(c, b.half) && second.negative_on(c, b.half);
+    const bool right = first.positive_on(c, b.half) && second.positive_on(c, b.half);
+    return !left && !right;
+  };
   std::vector<int> faces;
   g.face_tree().traverse(
-      [&](const internal::Box& box) {
-        const auto b = internal::centred(box);
-        const std::array<double, 3> c{b.centre[0] - v[0], b.centre[1] - v[1],
-                                      b.centre[2] - v[2]};
-        const bool left = first.negative_on(c, b.half) && second.negative_on(c, b.half);
-        const bool right = first.positive_on(c, b.half) && second.positive_on(c, b.half);
-        return !left && !right;
-      },
+      in_wedge,
       [&](std::uint32_t item) {
         const int f = static_cast<int>(item);
         bool front = false;
@@ -299,8 +315,9 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) 
       });
   std::sort(faces.begin(), faces.end());
   std::deque<Rational> positions;
-  const auto cuts = critical_cuts(g, g.stars()[g.star_of_point(arc.vertex)], e0, e1,
-                                  plane, faces, positions);
+  auto cuts = critical_cuts(g, g.stars()[g.star_of_point(arc.vertex)], e0, e1, plane,
+                            faces, positions);
+  impl_->add_crossings(in_wedge, arc, internal::corner_off(scene, faces, plane), positions, cuts);
   // Rounded positions are within 8 units of the last place of 1 of the exact ones (see
   // make_cut): two that are closer than twice that may be one.
   constexpr double kSame = 16 * std::numeric_limits<double>::epsilon();

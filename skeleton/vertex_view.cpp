@@ -499,18 +499,17 @@ std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
                                      VertexView& out) const {
   const Generator vertex{GeneratorKind::Vertex, point_};
   const Generator edge{GeneratorKind::Edge, pair.r->edge};
-  const auto only_on = [&](int object) {
-    return own_objects_.size() == 1 && own_objects_[0] == object;
+  const auto alone = [](std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
+    return a.size() == 1 && b.size() == 1 && a[0] == b[0];
   };
-  const bool arc_self = only_on(pair.edge->object);
+  const bool arc_self = alone(own_objects_, pair.r->objects);
   if (cut.kind == CutKind::Start || cut.kind == CutKind::End) {
     const int far = pair.r->points[cut.kind == CutKind::End];
     const Star& star = g_.stars()[g_.star_of_point(far)];
     const StarContact there = star_contact(scene_, star, at_);
     const StarContact here = star_contact(scene_, *star_, scene_.point(far));
     const auto objects = g_.objects_at(far);
-    const bool self =
-        own_objects_.size() == 1 && objects.size() == 1 && own_objects_[0] == objects[0];
+    const bool self = alone(own_objects_, objects);
     const Generator generators[] = {vertex, {GeneratorKind::Vertex, far}};
     const bool degenerate =
         there == StarContact::Degenerate || here == StarContact::Degenerate;
@@ -523,9 +522,11 @@ std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
   const Point hit = pair.e0 + cut.parameter() * (pair.e1 - pair.e0);
   switch (cut.kind) {
     case CutKind::Side: {
-      const int object = scene_.edges()[cut.feature].object;
-      const Generator generators[] = {vertex, {GeneratorKind::Edge, cut.feature}, edge};
-      const bool self = arc_self || only_on(object) || object == pair.edge->object;
+      const Generator side = g_.named(cut.feature);
+      const Generator generators[] = {vertex, side, edge};
+      const auto objects = g_.objects_of(side);
+      const bool self = arc_self || alone(own_objects_, objects) ||
+                        alone(objects, pair.r->objects);
       return out.add_node(NodeKind::VEE, self, false, generators, {at_, hit}, ends);
     }
     case CutKind::Support: {

@@ -11,6 +11,7 @@
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/eee_scenes.h"
 #include "tests/support/generators.h"
+#include "tests/support/invariant_scenes.h"
 
 namespace sightline {
 namespace {
@@ -113,6 +114,21 @@ TEST(FarPieces, HoldInDenseAndInAlignedScenes) {
   for (const Tally& t : {ev, eee}) {
     EXPECT_EQ(t.wrong, 0) << t.lines;
     EXPECT_GT(t.changing, 500);
+    std::printf("%d arcs, %d pieces, %d lines\n", t.arcs, t.pieces, t.lines);
+  }
+}
+
+// What two faces that cross each other end changes where a line meets both.
+TEST(FarPieces, HoldWhereFacesOfSolidsCross) {
+  Tally ev, eee;
+  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+    SCOPED_TRACE(seed);
+    const PolygonSoup soup = testing::crowded_scene(testing::Crowd::Overlapping, seed);
+    check_scene(Scene(soup), 1, 0, 200, 20, ev, eee);
+  }
+  for (const Tally& t : {ev, eee}) {
+    EXPECT_EQ(t.wrong, 0) << t.lines;
+    EXPECT_GT(t.changing, 50);
     std::printf("%d arcs, %d pieces, %d lines\n", t.arcs, t.pieces, t.lines);
   }
 }

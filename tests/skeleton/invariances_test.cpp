@@ -128,12 +128,15 @@ TEST(Invariances, LineThroughFourEdgesFoundTwice) {
   expect_alike("order_eeee_a.obj", "order_eeee_b.obj");
 }
 
-// A small share of invariances_soak_test.cpp: about three seconds a scene.
+// A small share of invariances_soak_test.cpp: about two seconds a scene.
 TEST(Invariances, CrowdedScenesInEveryWriting) {
   EXPECT_EQ(testing::count_alike(Crowd::Overlapping, 2), 10);
   EXPECT_EQ(testing::count_alike(Crowd::Touching, 1), 10);
   EXPECT_EQ(testing::count_alike(Crowd::RepeatedFaces, 1), 10);
-  EXPECT_EQ(testing::count_alike(Crowd::NonManifold, 1), 10);
+  // Of non-manifold scenes those of a first thousand in which most went wrong.
+  for (const std::uint64_t seed : {1, 15, 69, 138, 167, 176}) {
+    EXPECT_EQ(testing::count_alike(Crowd::NonManifold, seed), 10) << seed;
+  }
 }
 
 }  // namespace
