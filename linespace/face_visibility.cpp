@@ -67,7 +67,7 @@ std::vector<Polygon> scaled(std::vector<Polygon> polygons, int exponent) {
 }
 
 bool in_one_plane(const Scene& scene, int a, int b) {
-  const auto plane = plane_points(scene, a);
+  const auto plane = plane_corners(scene, a);
   return std::ranges::all_of(scene.face_points(b), [&](int p) {
     return orient3d(plane[0], plane[1], plane[2], scene.point(p)) == Sign::Zero;
   });
@@ -144,14 +144,14 @@ struct FaceVisibility::Impl {
 bool FaceVisibility::Impl::hidden_by_own_solid(int a, int b) const {
   const Object& solid = scene.objects()[scene.faces()[a].object];
   if (!solid.convex) return false;
-  const auto plane = plane_points(scene, a);
+  const auto plane = plane_corners(scene, a);
   const bool behind = std::ranges::all_of(scene.face_points(b), [&](int p) {
     return orient3d(plane[0], plane[1], plane[2], scene.point(p)) != Sign::Positive;
   });
   if (!behind) return false;
   // A face's plane with all of b in front: the solid does not reach to b.
   return std::ranges::any_of(solid.faces, [&](int f) {
-    const auto side = plane_points(scene, f);
+    const auto side = plane_corners(scene, f);
     return std::ranges::all_of(scene.face_points(b), [&](int p) {
       return orient3d(side[0], side[1], side[2], scene.point(p)) == Sign::Positive;
     });

@@ -38,7 +38,7 @@ bool unfolded(const Point& p, const Point& q, const Point& c, const Point& d) {
 // Rounded; radians.
 double angle_between(const Scene& scene, int f, int g) {
   const auto normal = [&](int face) -> Point {
-    const auto t = plane_points(scene, face);
+    const auto t = plane_corners(scene, face);
     return (t[1] - t[0]).cross(t[2] - t[0]).stableNormalized();
   };
   const Point m = normal(f), n = normal(g);

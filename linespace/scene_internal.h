@@ -131,7 +131,7 @@ struct SceneBuilder {
                                               const std::vector<std::uint8_t>& wanted);
 
 /// The plane of a face, as three points: its first three corners.
-[[nodiscard]] inline std::array<Point, 3> plane_points(const Scene& scene, int face) {
+[[nodiscard]] inline std::array<Point, 3> plane_corners(const Scene& scene, int face) {
   const auto ids = scene.face_points(face);
   return {scene.point(ids[0]), scene.point(ids[1]), scene.point(ids[2])};
 }

@@ -79,7 +79,7 @@ Point mean(const Scene& scene, std::span<const int> ids) {
 bool behind_all(const Scene& scene, const Object& object, const Point& p, bool allow_on) {
   return std::all_of(object.faces.begin(), object.faces.end(), [&](int f) {
     hear_stop();
-    const auto t = plane_points(scene, f);
+    const auto t = plane_corners(scene, f);
     const Sign s = orient3d(t[0], t[1], t[2], p);
     return s == Sign::Negative || (allow_on && s == Sign::Zero);
   });

@@ -119,7 +119,7 @@ class PlacedBoxes {
 class FacePlane {
  public:
   FacePlane(const Scene& scene, int face) {
-    const auto t = plane_points(scene, face);
+    const auto t = plane_corners(scene, face);
     const Point u = t[1] - t[0], v = t[2] - t[0];
     normal_ = u.cross(v);
     for (int k = 0; k < 3; ++k) {

@@ -113,7 +113,7 @@ struct SeenFace {
   int side;  // of the face's plane that the point is on
 
   SeenFace(const Scene& scene, int face, const Point& p, const ExactPoint& eye) {
-    const auto t = plane_points(scene, face);
+    const auto t = plane_corners(scene, face);
     side = static_cast<int>(orient3d(t[0], t[1], t[2], p));
     for (const int c : scene.face_points(face)) {
       corners.push_back(exact_difference(exact_point(scene.point(c)), eye));
@@ -388,7 +388,7 @@ void SceneBuilder::turn_face(int f) {
   std::reverse(corners + 1, corners + n);
   std::reverse(diagonals, diagonals + n);
   for (int k = 0; k < n; ++k) {
-    const auto t = plane_points(scene, f);
+    const auto t = plane_corners(scene, f);
     if (!collinear(t[0], t[1], t[2])) return;
     std::rotate(corners, corners + 1, corners + n);
     std::rotate(diagonals, diagonals + 1, diagonals + n);

@@ -189,7 +189,7 @@ std::optional<SolidIndex::Windings> SolidIndex::count_windings(int object,
       return false;
     }();
     if (turns == 0 && beside) return false;
-    const auto t = plane_points(*scene_, f);
+    const auto t = plane_corners(*scene_, f);
     const Sign s = side_of(t[0], t[1], t[2], p);
     if (s == Sign::Zero) return turns != 0 || contains_in_plane(*scene_, f, p);
     // The face is ahead of a point behind its front iff the ray leaves through it.
