@@ -82,6 +82,18 @@ std::string told_extras(const CLI::App& command, const std::vector<std::string>&
 
 }  // namespace
 
+std::vector<double> numbers_of(std::string_view text) {
+  std::vector<double> numbers;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(',', at), text.size());
+    const std::optional<double> x = number_of<double>(text.substr(at, end - at));
+    if (!x || !std::isfinite(*x)) return {};
+    numbers.push_back(*x);
+    at = end + 1;
+  }
+  return numbers;
+}
+
 CLI::Validator number_above_zero(double most) {
   return finite("a number above 0" + up_to(most),
                 [most](double x) { return x > 0 && x <= most; });

@@ -6,9 +6,13 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sightline::viewers {
+
+/// The finite numbers of a text with commas between them; empty when one of them is none.
+[[nodiscard]] std::vector<double> numbers_of(std::string_view text);
 
 /// Refuses all but finite numbers above 0 (from 0 on), at most `most`.
 [[nodiscard]] CLI::Validator number_above_zero(

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <iostream>
 
 #include "linespace/perturb.h"
@@ -45,24 +44,17 @@ struct SkeletonOptions : CommonOptions {
 };
 
 Point point_of(const std::string& text) {
-  Point p;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  for (int i = 0; i < 3; ++i) {
-    const auto [next, error] = std::from_chars(at, end, p[i]);
-    const bool last = i == 2;
-    if (error != std::errc() || (last ? next != end : next == end || *next != ',')) {
-      throw UsageError(fmt::format("--crossed: '{}' is not a point x,y,z", text));
-    }
-    if (!is_admissible(p[i])) {
-      throw UsageError(fmt::format(
-          "--crossed: '{}': a coordinate is neither 0 nor of magnitude from 2^-140 to "
-          "2^140",
-          text));
-    }
-    at = next + 1;
+  const std::vector<double> numbers = numbers_of(text);
+  if (numbers.size() != 3) {
+    throw UsageError(fmt::format("--crossed: '{}' is not a point x,y,z", text));
   }
-  return p;
+  if (!std::ranges::all_of(numbers, is_admissible)) {
+    throw UsageError(fmt::format(
+        "--crossed: '{}': a coordinate is neither 0 nor of magnitude from 2^-140 to "
+        "2^140",
+        text));
+  }
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 void check(const SkeletonOptions& options) {
@@ -86,12 +78,7 @@ void check(const SkeletonOptions& options) {
 }
 
 std::vector<double> box_of(const std::string& text) {
-  std::vector<double> numbers;
-  for (const std::string& word : CLI::detail::split(text, ',')) {
-    double x = 0;
-    if (!CLI::detail::lexical_cast(word, x)) numbers.clear();
-    numbers.push_back(x);
-  }
+  std::vector<double> numbers = numbers_of(text);
   if (numbers.size() != 6) {
     throw UsageError(fmt::format("--between-boxes: '{}' is not six numbers", text));
   }
