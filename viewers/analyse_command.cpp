@@ -428,6 +428,9 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
   }
   Outputs outputs(options);
   ReportFolder folder(options.folder);
+  outputs.add_folder("-o", folder.path(),
+                     [&folder](const std::string& name) { return folder.takes(name); });
+  outputs.add_folder("-o", folder.path() / "vtk", is_vtk_name);
   const Meter meter;
   StageLog log;
   const PrecisionScope precision(options.precision);

@@ -233,12 +233,7 @@ OutputFile::~OutputFile() {
 }
 
 bool OutputFile::would_replace(const fs::path& file) const {
-  struct stat mine {};
-  struct stat other {};
-  return ::stat(target_.c_str(), &mine) == 0 && S_ISREG(mine.st_mode) &&
-         (file == "-" ? ::fstat(STDIN_FILENO, &other) : ::stat(file.c_str(), &other)) ==
-             0 &&
-         same_file(mine, other);
+  return is_same_file(target_, file);
 }
 
 bool OutputFile::collides_with(const OutputFile& other) const {
@@ -265,6 +260,15 @@ void OutputFile::commit() {
 std::vector<std::string> written_files() {
   const std::scoped_lock lock(written.mutex);
   return written.names;
+}
+
+bool is_same_file(const fs::path& written, const fs::path& read) {
+  struct stat mine {};
+  struct stat other {};
+  return ::stat(written.c_str(), &mine) == 0 && S_ISREG(mine.st_mode) &&
+         (read == "-" ? ::fstat(STDIN_FILENO, &other) : ::stat(read.c_str(), &other)) ==
+             0 &&
+         same_file(mine, other);
 }
 
 void write_whole(const fs::path& path, std::string_view bytes) {

@@ -70,6 +70,11 @@ class OutputFile {
   bool committed_ = false;
 };
 
+/// Whether writing this name would change that regular file, under whatever other name of
+/// it; "-" as the second is standard input.
+[[nodiscard]] bool is_same_file(const std::filesystem::path& written,
+                                const std::filesystem::path& read);
+
 /// Creates or replaces a file with these bytes.  Throws OutputError or WriteError.
 void write_whole(const std::filesystem::path& path, std::string_view bytes);
 

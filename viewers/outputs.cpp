@@ -6,26 +6,54 @@
 
 #include "linespace/mesh_io.h"
 #include "viewers/json_text.h"
+#include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// The file that would be changed by writing this name, if a command reads it for its
+/// input: the input itself, or one of files_beside() it.
+std::optional<std::string> file_read(const fs::path& written, const std::string& input) {
+  std::error_code error;
+  if (!fs::is_regular_file(written, error)) return std::nullopt;
+  if (is_same_file(written, input)) return written.string();
+  // The input is looked into only where there is something to replace.
+  for (const std::string& file : files_beside(input)) {
+    if (is_same_file(written, file)) return written.string();
+  }
+  return std::nullopt;
+}
+
+}  // namespace
 
 Outputs::Outputs(const CommonOptions& options) {
   protect(options.scene);
   if (!options.json.empty()) json_ = &add("--json", options.json);
-  if (!options.vtk.empty()) vtk_.emplace(options.vtk);
+  if (!options.vtk.empty()) {
+    vtk_.emplace(options.vtk);
+    add_folder("--vtk", options.vtk, is_vtk_name);
+  }
 }
 
 void Outputs::refuse_if_read(const Named& output, const std::string& input) {
-  const auto refuse_if = [&](const std::string& file) {
-    if (!output.file->would_replace(file)) return;
-    throw OutputError(fmt::format("{}: {} is read; name another file", output.option,
-                                  output.file->target().string()));
-  };
-  refuse_if(input);
-  // The input is looked into only where there is something to replace.
+  if (const auto file = file_read(output.file->target(), input)) {
+    throw OutputError(
+        fmt::format("{}: {} is read; name another file", output.option, *file));
+  }
+}
+
+void Outputs::refuse_if_read(const Folder& folder, const std::string& input) {
   std::error_code error;
-  if (!std::filesystem::is_regular_file(output.file->target(), error)) return;
-  for (const std::string& file : files_beside(input)) refuse_if(file);
+  for (const auto& entry : fs::directory_iterator(folder.path, error)) {
+    if (!folder.takes(entry.path().filename().string())) continue;
+    if (const auto file = file_read(entry.path(), input)) {
+      throw OutputError(
+          fmt::format("{}: {} is read; name another folder", folder.option, *file));
+    }
+  }
 }
 
 OutputFile& Outputs::add(const std::string& option, const std::string& file) {
@@ -41,9 +69,16 @@ OutputFile& Outputs::add(const std::string& option, const std::string& file) {
   return *files_.back().file;
 }
 
+void Outputs::add_folder(const std::string& option, const fs::path& folder,
+                         std::function<bool(const std::string&)> takes) {
+  folders_.push_back({option, folder, std::move(takes)});
+  for (const std::string& input : inputs_) refuse_if_read(folders_.back(), input);
+}
+
 void Outputs::protect(const std::string& file) {
   if (file.empty()) return;
   for (const Named& output : files_) refuse_if_read(output, file);
+  for (const Folder& folder : folders_) refuse_if_read(folder, file);
   inputs_.push_back(file);
 }
 

@@ -64,6 +64,12 @@ void ReportFolder::add(const std::vector<std::string>& names) {
   write_list();
 }
 
+bool ReportFolder::takes(const std::string& name) const {
+  return name == kList || name == "index.html" || name == "report.json" ||
+         name == "skeleton.json" || name.ends_with(".png") ||
+         std::ranges::find(earlier_, name) != earlier_.end();
+}
+
 void ReportFolder::write_list() const {
   std::vector<std::string> all = files_;
   for (const std::string& name : earlier_) {

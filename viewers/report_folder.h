@@ -29,6 +29,10 @@ class ReportFolder {
   /// These were written.
   void add(const std::vector<std::string>& names);
 
+  /// Whether a report may write a file of this name into the folder, or remove it there;
+  /// not of those in folders below it.
+  [[nodiscard]] bool takes(const std::string& name) const;
+
   [[nodiscard]] const std::filesystem::path& path() const { return folder_.path(); }
   /// Of this run, in order; without the list itself.
   [[nodiscard]] const std::vector<std::string>& files() const { return files_; }

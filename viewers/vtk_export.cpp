@@ -501,6 +501,10 @@ void require_content(const VtkPicture& picture) {
 
 }  // namespace
 
+bool is_vtk_name(const std::string& name) {
+  return name == kIndex || name.ends_with(".vtp");
+}
+
 std::vector<std::string> write_vtk(const std::filesystem::path& folder,
                                    const Scene& scene, const VtkContents& contents,
                                    const Request& request) {

@@ -46,6 +46,9 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
                                    const Scene& scene, const VtkContents& contents,
                                    const Request& request = {});
 
+/// Whether write_vtk or write_vtk_lines may write a file of this name.
+[[nodiscard]] bool is_vtk_name(const std::string& name);
+
 /// Straight pieces, or polygons, of one kind, with what they are called and told of.
 struct LineBlock {
   struct Piece {
