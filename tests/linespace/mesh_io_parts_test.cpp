@@ -73,11 +73,11 @@ std::multiset<Corners> faces_of(const PolygonSoup& soup) {
   return faces;
 }
 
-/// Whether all corners are of one face of the whole file.
+/// Whether all corners are of one face of the whole file, and three at least.
 bool is_of(const Corners& face, const std::multiset<Corners>& all) {
-  return std::ranges::any_of(all, [&face](const Corners& whole) {
-    return std::includes(whole.begin(), whole.end(), face.begin(), face.end());
-  });
+  return face.size() > 2 && std::ranges::any_of(all, [&face](const Corners& whole) {
+           return std::includes(whole.begin(), whole.end(), face.begin(), face.end());
+         });
 }
 
 TEST(ReadMeshParts, WholeFilesAreCubes) {
