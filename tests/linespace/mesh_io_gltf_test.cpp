@@ -1,10 +1,14 @@
 // glTF: what is read of it, to the last bit, and what is refused by name.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <Eigen/Geometry>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <random>
@@ -346,6 +350,59 @@ TEST_F(Gltf, RightAnglesAreExact) {
   }
 }
 
+// Chains of nodes that turn by right angles, as any tool writes them, stay on the grid.
+TEST_F(Gltf, RightAnglesStayExactInChains) {
+  Random random(11);
+  for (int i = 0; i < kNeighbours; ++i) {
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    Point move(0, 0, 0);
+    std::string nodes;
+    const int depth = 2 + i % 4;
+    for (int k = 0; k < depth; ++k) {
+      const Eigen::Quaterniond q(
+          Eigen::AngleAxisd(M_PI / 2 * (random() % 4),
+                            Eigen::Vector3d::Unit(static_cast<int>(random() % 3))));
+      const Eigen::Matrix3d exact = q.toRotationMatrix().array().round();
+      Point step;
+      for (double& x : step) x = static_cast<double>(random() % 1000) / 8;
+      move = Point(turn * step + move);
+      turn = Eigen::Matrix3d(turn * exact);
+      const bool as_float = random() % 2 == 0;
+      std::vector<double> numbers;
+      if (random() % 2 == 0) {
+        for (const double x : {q.x(), q.y(), q.z(), q.w()}) {
+          numbers.push_back(as_float ? static_cast<double>(static_cast<float>(x)) : x);
+        }
+        nodes += R"({"rotation":)" + numbers_text(numbers) + R"(,"translation":)" +
+                 numbers_text({step[0], step[1], step[2]});
+      } else {
+        const Eigen::Matrix3d m = q.toRotationMatrix();
+        for (int column = 0; column < 3; ++column) {
+          for (int row = 0; row < 3; ++row) {
+            const double x = m(row, column);
+            numbers.push_back(as_float ? static_cast<double>(static_cast<float>(x)) : x);
+          }
+          numbers.push_back(0);
+        }
+        for (const double x : step) numbers.push_back(x);
+        numbers.push_back(1);
+        nodes += R"({"matrix":)" + numbers_text(numbers);
+      }
+      nodes += k + 1 < depth ? R"(,"children":[)" + std::to_string(k + 1) + "]},"
+                             : std::string(R"(,"mesh":0})");
+    }
+    File file = cube();
+    file.nodes = nodes;
+    const PolygonSoup soup =
+        internal::read_gltf("x.gltf", file.text(), test::Unhurried());
+    for (int v = 0; v < 8; ++v) {
+      const Point local(v & 1, v >> 1 & 1, v >> 2 & 1);
+      EXPECT_EQ(soup.vertices[static_cast<std::size_t>(v)], Point(turn * local + move))
+          << nodes;
+    }
+  }
+}
+
 // A chain of nodes against the product of their matrices.
 TEST_F(Gltf, TransformationsOfNodesAreComposedInDouble) {
   Random random(5);
@@ -545,6 +602,143 @@ TEST_F(Gltf, ManyUsesOfOneMeshAreRefusedBeforeTheyFillTheMemory) {
   for (int k = 0; k < 20; ++k) file.indices += once;
   file.index_count *= 21;
   EXPECT_NE(complaint_about(file.text()).find("unfolds to more than"), std::string::npos);
+}
+
+/// A whole file in which every kind of index stands once, as the text before it.
+std::string indexed_file() {
+  File file = cube();
+  // Sparse positions, as in SparsePositionsReplaceDenseOnesOrZeros.
+  const std::size_t at = file.positions.size();
+  append(file.positions, static_cast<std::uint16_t>(2));
+  append(file.positions, static_cast<std::uint16_t>(5));
+  for (const float x : {0.F, 1.F, 0.F, 1.F, 0.F, 1.F}) append(file.positions, x);
+  file.accessor = R"(,"sparse":{"count":2,"indices":{"bufferView":0,"byteOffset":)" +
+                  std::to_string(at) +
+                  R"(,"componentType":5123},"values":{"bufferView":0,"byteOffset":)" +
+                  std::to_string(at + 4) + "}}";
+  file.nodes = R"({"children":[1],"name":"r"},{"mesh":0})";
+  std::string text = file.text();
+  text.insert(text.find(R"("indices":1)"), R"("material":0,)");
+  text.insert(text.find(R"(,"meshes")"), R"(,"materials":[{"name":"m"}])");
+  return text;
+}
+
+// Every index of the format, out of its range or no index at all.
+TEST_F(Gltf, IndicesOutOfRangeAreRefusedWhereverTheyStand) {
+  const std::string whole = indexed_file();
+  ASSERT_EQ(complaint_about(whole), "");
+  const std::vector<std::string> before{R"("scenes":[{"nodes":[)",
+                                        R"("scene":)",
+                                        R"("children":[)",
+                                        R"("mesh":)",
+                                        R"("POSITION":)",
+                                        R"("indices":)",
+                                        R"("material":)",
+                                        R"("accessors":[{"bufferView":)",
+                                        R"("indices":{"bufferView":)",
+                                        R"("values":{"bufferView":)",
+                                        R"(,{"bufferView":)",
+                                        R"("bufferViews":[{"buffer":)"};
+  const std::vector<std::string> no_index{
+      "7",     "2147483647", "2147483648", "4294967296", "-1", "-2147483648",
+      "1e300", "0.5",        "\"0\"",      "[0]",        "{}", "true"};
+  Random random(8);
+  for (int i = 0; i < 2 * kNeighbours; ++i) {
+    const std::string& place = before[static_cast<std::size_t>(i) % before.size()];
+    const std::string& value = no_index[random() % no_index.size()];
+    std::string text = whole;
+    const std::size_t at = text.find(place);
+    ASSERT_NE(at, std::string::npos) << place;
+    const std::size_t begin = at + place.size();
+    text.replace(begin, text.find_first_not_of("0123456789", begin) - begin, value);
+    const std::string message = complaint_about(text);
+    // Materials are not read: one that is not there moves nothing.
+    EXPECT_EQ(message.starts_with("x.gltf: "), place != R"("material":)")
+        << place << value << ": " << message;
+    EXPECT_EQ(message.find_first_of("\r\n"), std::string::npos) << message;
+  }
+}
+
+// Indices of vertices, of 8, 16 and 32 bits, dense and sparse: the first bad one is
+// named.
+TEST_F(Gltf, IndicesOfVerticesThatAreNotThereAreNamed) {
+  Random random(9);
+  for (int i = 0; i < kNeighbours; ++i) {
+    File file = cube();
+    const std::string dense = file.indices;
+    const int bytes = std::array{1, 2, 4}[random() % 3];
+    file.index_type = std::array{0, 5121, 5123, 0, 5125}[static_cast<std::size_t>(bytes)];
+    const std::size_t bad = random() % 36;
+    std::uint32_t value = 8 + random() % 200;
+    if (bytes > 1 && random() % 2 == 0) value = 65534;
+    if (bytes == 4 && random() % 2 == 0) value = 0xFFFFFFFE;
+    file.indices.clear();
+    for (std::size_t k = 0; k < 36; ++k) {
+      const auto v = k == bad || (k > bad && random() % 8 == 0)
+                         ? value
+                         : static_cast<std::uint32_t>(dense[4 * k]);
+      for (int b = 0; b < bytes; ++b) {
+        file.indices += static_cast<char>(v >> 8 * b & 255);
+      }
+    }
+    const std::string message = complaint_about(file.text());
+    EXPECT_NE(message.find("mesh 0 'm', primitive 0: index " + std::to_string(bad) +
+                           " names vertex " + std::to_string(value) + " of 8"),
+              std::string::npos)
+        << message;
+  }
+}
+
+// Names of buffers with anything in them, written with as many escapes as a writer likes.
+TEST_F(Gltf, EscapedUrisNameTheirFiles) {
+  const std::string folder =
+      testing::TempDir() + "sightline_uris_" + std::to_string(getpid());
+  std::filesystem::create_directories(folder + "/d");
+  const std::array pieces{" ", "%", "\xC3\xA4", "#", "?", "+", "a", "%20", "\xE2\x82\xAC",
+                          "&", "'", "(",        "~", "!", "_", "B"};
+  Random random(10);
+  for (int i = 0; i < kNeighbours; ++i) {
+    std::string name, uri;
+    for (std::size_t n = 1 + random() % 6; n > 0; --n) name += pieces[random() % 16];
+    name += ".bin";
+    const bool below = random() % 4 == 0;
+    for (const char c : name) {
+      const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' ||
+                         c == '.' || c == '~';
+      if (plain && random() % 4 != 0) {
+        uri += c;
+        continue;
+      }
+      const std::string digits =
+          random() % 2 == 0 ? "0123456789ABCDEF" : "0123456789abcdef";
+      uri += {'%', digits[static_cast<unsigned char>(c) >> 4],
+              digits[static_cast<unsigned char>(c) & 15]};
+    }
+    const std::string file = folder + (below ? "/d/" : "/") + name;
+    const File described = cube();
+    std::ofstream(file, std::ios::binary) << described.positions << described.indices;
+    std::string text = described.text();
+    const std::size_t data_uri = text.find("data:");
+    text.replace(data_uri, text.find('"', data_uri) - data_uri,
+                 (below ? "d/" : "") + uri);
+    std::ofstream(folder + "/x.gltf") << text;
+    EXPECT_EQ(
+        complaint([&] { EXPECT_EQ(read_mesh(folder + "/x.gltf").polygons.size(), 12U); }),
+        "")
+        << uri;
+    EXPECT_EQ(files_beside(folder + "/x.gltf"), std::vector<std::string>{file}) << uri;
+    std::filesystem::remove(file);
+    // Now it is not there: told by name.
+    const std::string message = complaint([&] { (void)read_mesh(folder + "/x.gltf"); });
+    EXPECT_TRUE(message.starts_with(folder + "/x.gltf: ")) << message;
+  }
+  for (const char* const broken : {"%", "%2", "%zz.bin", "a%00b", "%0", ""}) {
+    std::string text = cube().text();
+    const std::size_t data_uri = text.find("data:");
+    text.replace(data_uri, text.find('"', data_uri) - data_uri, broken);
+    EXPECT_NE(complaint_about(text), "") << broken;
+  }
+  std::filesystem::remove_all(folder);
 }
 
 // Copies with a byte changed are read or refused in one line, text and binary alike.
