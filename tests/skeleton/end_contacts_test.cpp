@@ -256,45 +256,71 @@ TEST(EndContacts, EventsAreToldWhereTheEyeSeesThem) {
   std::printf("%d seen, %d hidden\n", seen, hidden);
 }
 
-// Of all EV events told on random paths: the line from the farther contact to the eye is
+// Of EV events told on random paths: the line from the farther contact to the eye is
 // exact, and runs inside no solid.
-TEST(EndContacts, NoEventIsToldBehindASolid) {
+struct EventCount {
   int events = 0, ended = 0;
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    const PolygonSoup soup = testing::eee_scene(seed);
-    const Answers answers(soup);
-    const Solids solids(soup);
-    testing::Random random(seed);
-    for (int path = 0; path < 10; ++path) {
-      const Point a = testing::grid_point(random, answers.scene, 0.3);
-      const Point b = testing::grid_point(random, answers.scene, 0.3);
-      for (const ViewEvent& e : answers.events.crossed(a, b)) {
-        if (e.kind != EventKind::EV) continue;
-        const SkeletonArc& arc = answers.skeleton.arcs[e.id];
-        const auto& edge = answers.scene.edges()[arc.edge].points;
-        const auto meeting = [](const std::array<Vec3, 2>& line, const Vec3& p,
-                                const Vec3& q, const Vec3& r) {
-          const Vec3 n = testing::cross(q - p, r - p);
-          const Rational x = testing::dot(n, line[0] - p);
-          return at(line, x / (x - testing::dot(n, line[1] - p)));
-        };
-        const std::array<Vec3, 2> way{testing::exact(a), testing::exact(b)};
-        const std::array<Vec3, 2> e01{testing::exact(answers.scene.point(edge[0])),
-                                      testing::exact(answers.scene.point(edge[1]))};
-        const Vec3 v = testing::exact(answers.scene.point(arc.vertex));
-        const Vec3 eye = meeting(way, v, e01[0], e01[1]);
-        const Vec3 on_edge = meeting(e01, v, way[0], way[1]);
-        ++events;
-        ended += arc.ends[0] || arc.ends[1];
-        EXPECT_FALSE(arc.ends[e.side]);
-        EXPECT_LE(solids.inside_between({e.side == 1 ? v : on_edge, eye}, 0, 1), 0)
-            << "seed " << seed << " path " << path << " arc " << e.id;
-      }
+};
+
+void expect_events_in_front(const PolygonSoup& soup, std::uint64_t seed, int paths,
+                            EventCount& count) {
+  SCOPED_TRACE(seed);
+  const Answers answers(soup);
+  const Solids solids(soup);
+  testing::Random random(seed);
+  const auto meeting = [](const std::array<Vec3, 2>& line, const Vec3& p, const Vec3& q,
+                          const Vec3& r) {
+    const Vec3 n = testing::cross(q - p, r - p);
+    const Rational x = testing::dot(n, line[0] - p);
+    return at(line, x / (x - testing::dot(n, line[1] - p)));
+  };
+  for (int path = 0; path < paths; ++path) {
+    const Point a = testing::grid_point(random, answers.scene, 0.3);
+    const Point b = testing::grid_point(random, answers.scene, 0.3);
+    for (const ViewEvent& e : answers.events.crossed(a, b)) {
+      if (e.kind != EventKind::EV) continue;
+      const SkeletonArc& arc = answers.skeleton.arcs[e.id];
+      const auto& edge = answers.scene.edges()[arc.edge].points;
+      const std::array<Vec3, 2> way{testing::exact(a), testing::exact(b)};
+      const std::array<Vec3, 2> e01{testing::exact(answers.scene.point(edge[0])),
+                                    testing::exact(answers.scene.point(edge[1]))};
+      const Vec3 v = testing::exact(answers.scene.point(arc.vertex));
+      const Vec3 eye = meeting(way, v, e01[0], e01[1]);
+      const Vec3 on_edge = meeting(e01, v, way[0], way[1]);
+      ++count.events;
+      count.ended += arc.ends[0] || arc.ends[1];
+      EXPECT_FALSE(arc.ends[e.side]);
+      EXPECT_LE(solids.inside_between({e.side == 1 ? v : on_edge, eye}, 0, 1), 0)
+          << "path " << path << " arc " << e.id;
     }
   }
-  EXPECT_GT(events, 2000);
-  EXPECT_GT(ended, 500);
-  std::printf("%d events, %d of arcs with an end contact\n", events, ended);
+}
+
+TEST(EndContacts, NoEventIsToldBehindASolid) {
+  EventCount count;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    expect_events_in_front(testing::eee_scene(seed), seed, 10, count);
+  }
+  EXPECT_GT(count.events, 2000);
+  EXPECT_GT(count.ended, 500);
+  std::printf("%d events, %d of arcs with an end contact\n", count.events, count.ended);
+}
+
+// Two solids, as in the report below: tetrahedra, larger polytopes, boxes with corners on
+// a small grid.
+TEST(EndContacts, NoEventIsToldBehindEitherOfTwoSolids) {
+  EventCount count;
+  for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+    const PolygonSoup soup =
+        seed % 3 == 0   ? testing::random_boxes(seed, 2, {.grid = 6})
+        : seed % 3 == 1 ? testing::random_polytopes(
+                              seed, 2, {.max_vertices = 4, .density = 0.3, .bits = 4})
+                        : testing::random_polytopes(seed, 2, {.density = 0.3});
+    expect_events_in_front(soup, seed, 6, count);
+  }
+  EXPECT_GT(count.events, 1500);
+  EXPECT_GT(count.ended, 100);
+  std::printf("%d events, %d of arcs with an end contact\n", count.events, count.ended);
 }
 
 // A report of an outside check: behind the edge (3,9,1)-(10,1,2) of one tetrahedron an

@@ -95,7 +95,9 @@ std::string difference(const std::vector<std::string>& a,
 
 // What an object is does not matter but for the mark of self: a far triangle in its group
 // makes a closed surface one of sheets.
-void expect_same_as_sheets(PolygonSoup soup, const std::vector<std::string>& rooms) {
+void expect_same_as_sheets(PolygonSoup soup, const std::vector<std::string>& rooms,
+                           const std::vector<EventMode>& modes = {EventMode::Solid,
+                                                                  EventMode::Polygon}) {
   PolygonSoup sheets = soup;
   for (std::size_t k = 0; k < rooms.size(); ++k) {
     const double x = 1000 + 500 * static_cast<double>(k * k);
@@ -113,7 +115,7 @@ void expect_same_as_sheets(PolygonSoup soup, const std::vector<std::string>& roo
     }
   }
   ASSERT_EQ(Scene(sheets).defects().size() + rooms.size(), Scene(soup).defects().size());
-  for (const EventMode mode : {EventMode::Solid, EventMode::Polygon}) {
+  for (const EventMode mode : modes) {
     EXPECT_EQ(difference(texts(canonical(soup, mode)), texts(canonical(sheets, mode))),
               "")
         << (mode == EventMode::Solid ? "solid" : "polygon");
@@ -207,6 +209,55 @@ TEST(Rooms, WithThingsInsideAreSheets) {
   ell.groups = {{"room", {0, 1, 2, 3, 4, 5, 6, 7}}};
   EXPECT_TRUE(Scene(ell).objects()[0].inside_out);
   expect_same_as_sheets(ell, {"room"});
+}
+
+// Rooms with up to three things on a grid: inside, at walls, through them, outside;
+// alone, with a room within the room, or beside one.
+TEST(Rooms, OfAnySeedAreSheets) {
+  int rooms = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    SCOPED_TRACE(seed);
+    testing::Random random(seed);
+    std::vector<AlignedBox> all{kRoom};
+    std::vector<std::string> names{"room"};
+    if (seed % 3 == 1) {
+      const double gap = random.integer(0, 2);
+      all.push_back({{8 + gap, 0, 0}, {14 + gap, 6, 4}});
+      names.emplace_back("next");
+    }
+    const auto free = [&](const AlignedBox& box, double margin) {
+      return std::ranges::none_of(all, [&](const AlignedBox& other) {
+        if (&other == &all.front() || (names.size() == 2 && &other == &all[1]))
+          return false;
+        for (int axis = 0; axis < 3; ++axis) {
+          if (box.max[axis] + margin <= other.min[axis] ||
+              other.max[axis] + margin <= box.min[axis]) {
+            return false;
+          }
+        }
+        return true;
+      });
+    };
+    // What stands empty is a solid.
+    for (std::size_t k = names.size(); k > 0; --k) {
+      const double x = all[k - 1].min[0] + random.integer(1, 4);
+      all.push_back({{x, 2, 1}, {x + 1, 4, 2}});
+    }
+    for (int tries = 0; tries < 2; ++tries) {
+      AlignedBox box;
+      for (int axis = 0; axis < 3; ++axis) {
+        box.min[axis] = random.integer(-2, 7);
+        box.max[axis] = box.min[axis] + random.integer(1, 3);
+      }
+      if (free(box, 0.5)) all.push_back(box);
+    }
+    PolygonSoup soup = boxes(all, names);
+    for (const std::string& name : names) turn(soup, name);
+    rooms += static_cast<int>(names.size());
+    expect_same_as_sheets(soup, names,
+                          {seed % 2 == 0 ? EventMode::Solid : EventMode::Polygon});
+  }
+  EXPECT_GT(rooms, 100);
 }
 
 // Two rooms with a wall in common, each with a box in it, and a box in neither.

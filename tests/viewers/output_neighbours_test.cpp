@@ -185,7 +185,7 @@ TEST_F(OutputNeighbours, DevicesPipesAndFoldersStayWhatTheyAre) {
   ASSERT_EQ(mknod((folder_ / "full").c_str(), S_IFCHR | 0666, makedev(1, 7)), 0);
   shell("mkfifo pipe; ln -s null null-link; ln -s full full-link; ln -s pipe pipe-link");
   std::mt19937 random(2);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < 60; ++i) {
     const Output& output =
         kFileOutputs[static_cast<std::size_t>(i) % kFileOutputs.size()];
     const std::string link = random() % 2 == 0 ? "-link" : "";

@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 #include <random>
+#include <regex>
 
 #include "linespace/mesh_io.h"
 #include "skeleton/skeleton.h"
@@ -193,6 +194,73 @@ TEST_F(SavedSkeleton, OptionsThatOnlyTheBuildingObeysAreRefused) {
   }
   expect_told("$S skeleton $CORNELL --saved s.json --perturb 10", 2, "another scene");
   expect_told("$S skeleton $CORNELL --saved s.json -o s.json", 2, "is read");
+}
+
+// Every option of the command is refused beside --saved, or obeyed: then the answer is
+// that of a new skeleton.
+TEST_F(SavedSkeleton, EveryOptionIsRefusedOrObeyed) {
+  const std::set<std::string> refused{
+      "--events", "--kinds",  "--between",       "--through",      "--region",
+      "--near",   "--radius", "--between-boxes", "--feature-size", "--budget-mb"};
+  const std::set<std::string> obeyed{
+      "--list",      "--seen-from", "--between-ends", "--crossed", "--threads",
+      "--precision", "--budget",    "--format",       "--perturb", "--seed"};
+  const std::set<std::string> outputs{"--help",   "--json",   "--vtk",
+                                      "--extend", "--output", "--saved"};
+  std::set<std::string> known;
+  for (const auto* some : {&refused, &obeyed, &outputs}) {
+    known.insert(some->begin(), some->end());
+  }
+  const std::string help = shell("$S skeleton --help").out;
+  std::set<std::string> told;
+  const std::regex option("\n +(?:-.,)?(--[a-z-]+)[ \n]");
+  for (auto at = std::sregex_iterator(help.begin(), help.end(), option);
+       at != std::sregex_iterator(); ++at) {
+    told.insert((*at)[1].str());
+  }
+  EXPECT_EQ(told, known);
+
+  const std::vector<std::string> values{"--list",
+                                        "--seen-from floor",
+                                        "--seen-from outside",
+                                        "--between-ends floor outside",
+                                        "--between-ends tall_block short_block",
+                                        "--crossed 5,20,5 50,25.25,40.5",
+                                        "--crossed 1,2,3 30,20,10",
+                                        "--threads 1",
+                                        "--precision double",
+                                        "--budget 60",
+                                        "--format obj"};
+  std::mt19937 engine(7);
+  for (int i = 0; i < 50; ++i) {
+    // A part, or a perturbed scene, saved with what it was built with.
+    const std::array builds{"--kinds EV", "--kinds EV --events polygon",
+                            "--kinds EV --between tall_block short_block"};
+    const std::array scenes{"", " --perturb 0.01", " --perturb 0.01 --seed 9"};
+    const std::string scene = scenes[engine() % 3];
+    const std::string build = std::string(builds[engine() % 3]);
+    std::set<std::string> names;
+    std::string asked;
+    for (int k = 0; k < 1 + i % 4; ++k) {
+      const std::string& value = values[engine() % values.size()];
+      if (names.insert(value.substr(0, value.find(' '))).second) asked += " " + value;
+    }
+    const std::string line = "$S skeleton $CORNELL --json - " + scene + asked;
+    const Run fresh = shell(line + " -o s.json " + build);
+    const Run kept = shell(line + " --saved s.json");
+    SCOPED_TRACE(line + " / " + build);
+    ASSERT_EQ(fresh.status, 0) << fresh.err;
+    ASSERT_EQ(kept.status, 0) << kept.err;
+    json a = json::parse(fresh.out), b = json::parse(kept.out);
+    EXPECT_EQ(b.at("options").at("saved"), "s.json");
+    b["options"].erase("saved");
+    for (json* answer : {&a, &b}) {
+      for (const char* key : {"seconds", "peak_memory_bytes", "predicates"}) {
+        answer->erase(key);
+      }
+    }
+    EXPECT_EQ(a, b) << json::diff(a, b).dump().substr(0, 2000);
+  }
 }
 
 TEST_F(SavedSkeleton, TheAnswerTellsTheOptionsItWasBuiltWith) {
