@@ -10,6 +10,7 @@
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/plane_crossings_internal.h"
 #include "skeleton/plane_values_internal.h"
+#include "skeleton/rounded_root_internal.h"
 #include "skeleton/shaft_internal.h"
 
 namespace sightline::internal {
@@ -228,8 +229,8 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
       arc.edge = ridge.edge;
       arc.self = self;
       arc.ends = ends;
-      arc.range = {rounded_parameter(scene, line, *begin),
-                   rounded_parameter(scene, line, end)};
+      arc.range = rounded_range(rounded_parameter(scene, line, *begin),
+                                rounded_parameter(scene, line, end));
       int k = 0;
       for (const Cut& c : {*begin, end}) {
         const ExactPoint x = point_at(c);

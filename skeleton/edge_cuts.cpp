@@ -47,6 +47,8 @@ Rational exact_parameter(const Scene& scene, const LineThrough& edge, const Cut&
   };
   const Ring x = at(edge.from);
   const Ring y = at(edge.to);
+  // Only where a sign was left to rounding does the plane not cross the edge's line.
+  if (x == y) return Rational(cut.parameter());
   return Rational((CGAL::Gmpq(x) / CGAL::Gmpq(Ring(x - y))).mpq());
 }
 

@@ -4,6 +4,7 @@
 #include "linespace/stop_scope_internal.h"
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/occluder_shadow_internal.h"
+#include "skeleton/rounded_root_internal.h"
 
 namespace sightline::internal {
 
@@ -330,7 +331,7 @@ void EdgePairs::add_arc(const Outer& outer, const EeeCurve& curve, int middle,
   FoundArc found;
   found.arc.edges = {first.edge, between.edge, last.edge};
   found.arc.ends = stretch.ends;
-  found.arc.range = {curve.rounded(part.from), curve.rounded(part.to)};
+  found.arc.range = rounded_range(curve.rounded(part.from), curve.rounded(part.to));
   found.arc.self = share(first.objects, between.objects) ||
                    share(between.objects, last.objects) ||
                    share(first.objects, last.objects);

@@ -283,6 +283,8 @@ Rational rational(const Ring& x) {
 
 std::optional<Rational> EeeCurve::rational_parameter(const CurveCut& cut) const {
   const Root root = exact(cut);
+  // Only where a sign was left to rounding has the cut no place of its own.
+  if (is_zero(root.c)) return Rational(cut.parameter());
   Rational s = rational(root.a);
   if (!is_zero(root.b) && !is_zero(root.d)) {
     const auto r = rational_root(root.d);

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 
 #include "linespace/exact_numbers_internal.h"
@@ -15,5 +17,12 @@ namespace sightline::internal {
 
 /// The zero s at which h0 (1 - s)^2 + h1 s (1 - s) + h2 s^2 rises, or falls; likewise.
 [[nodiscard]] std::optional<double> rounded_root(const Quadratic<Ball>& h, bool rises);
+
+/// The range between two rounded positions, in order whatever rounding made of them: they
+/// may be nearer to each other than kRangeError, and at precision Double the signs that
+/// ordered them may be wrong.
+[[nodiscard]] inline std::array<double, 2> rounded_range(double from, double to) {
+  return {std::min(from, to), std::max(from, to)};
+}
 
 }  // namespace sightline::internal

@@ -9,6 +9,7 @@
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/opposite_edges_internal.h"
 #include "skeleton/plane_values_internal.h"
+#include "skeleton/rounded_root_internal.h"
 #include "skeleton/vertex_pair_internal.h"
 #include "skeleton/vertex_view_internal.h"
 
@@ -366,8 +367,8 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     arc.self = self;
     arc.ends = {!pair.lists.piece_ends.empty() && pair.lists.piece_ends[k] != 0,
                 pair.edge_ends};
-    arc.range = {rounded_parameter(scene_, {pair.e0, pair.e1}, i.from),
-                 rounded_parameter(scene_, {pair.e0, pair.e1}, i.to)};
+    arc.range = rounded_range(rounded_parameter(scene_, {pair.e0, pair.e1}, i.from),
+                              rounded_parameter(scene_, {pair.e0, pair.e1}, i.to));
     const auto node = [&](const Cut& cut) {
       // Where the edge enters a face, a corner that is one cone touches nothing else.
       const bool simple =
