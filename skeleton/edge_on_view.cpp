@@ -15,6 +15,7 @@
 #include "skeleton/edge_on_view_internal.h"
 #include "skeleton/eee_curve_internal.h"
 #include "skeleton/node_contacts_internal.h"
+#include "skeleton/quotient_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -65,7 +66,7 @@ class EdgeOnView {
     plane_ = {exact_point(plane.a), exact_point(plane.b), exact_point(plane.c)};
     const Rational at_a = height(a);
     const Rational at_b = height(b);
-    x_ = along(exact_point(a), exact_point(b), at_a / (at_a - at_b));
+    x_ = along(exact_point(a), exact_point(b), quotient(at_a, at_a - at_b));
     near_ = rounded(x_);
     const ExactPoint normal = exact_cross(exact_difference(plane_[1], plane_[0]),
                                           exact_difference(plane_[2], plane_[0]));
@@ -178,7 +179,7 @@ class EdgeOnView {
       if (d.p != d.q) {
         const Rational a = height(scene_.point(d.p));
         const Rational b = height(scene_.point(d.q));
-        at = along(at, exact_point(scene_.point(d.q)), a / (a - b));
+        at = along(at, exact_point(scene_.point(d.q)), quotient(a, a - b));
       }
       d.exact = {at[kept_[0]] - x_[kept_[0]], at[kept_[1]] - x_[kept_[1]]};
     }
@@ -282,7 +283,7 @@ class EdgeOnView {
     const Way<Rational> step = exact(a.to) - u;
     const Way<Rational> v = exact(b.from);
     const Way<Rational> way = exact(b.to) - v;
-    const Rational t = cross(step, Way<Rational>(u - v)) / cross(step, way);
+    const Rational t = quotient(cross(step, Way<Rational>(u - v)), cross(step, way));
     add_direction({v[0] + t * way[0], v[1] + t * way[1]});
   }
 
@@ -368,7 +369,7 @@ class EdgeOnView {
     const Way<Rational> middle = exact(gap.from) + exact(gap.to);
     const Way<Rational> p = exact(side.from);
     const Way<Rational> q = exact(side.to);
-    const Rational t = cross(p, q) / cross(middle, Way<Rational>(q - p));
+    const Rational t = quotient(cross(p, q), cross(middle, Way<Rational>(q - p)));
     ExactPoint w;
     w[axis_] = x_[axis_];
     for (int i = 0; i < 2; ++i) {

@@ -6,6 +6,7 @@
 #include "skeleton/face_pairs_internal.h"
 #include "skeleton/occluder_shadow_internal.h"
 #include "skeleton/parallel_internal.h"
+#include "skeleton/quotient_internal.h"
 #include "skeleton/shaft_internal.h"
 
 namespace sightline::internal {
@@ -119,7 +120,7 @@ void FacePairs::add_intervals(int facet, int across, bool of_first) {
       } else if (signs[k] == -signs[next]) {
         const ExactPoint q = exact_point(scene_.point(corners[next]));
         const Rational x = value(p);
-        ends.push_back(along(p, q, x / (x - value(q))));
+        ends.push_back(along(p, q, quotient(x, x - value(q))));
       }
     }
     if (ends.size() == 2) intervals_.push_back({ends[0], ends[1], of_first});

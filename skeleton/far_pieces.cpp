@@ -8,6 +8,7 @@
 #include "skeleton/far_pieces_internal.h"
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/plane_crossings_internal.h"
+#include "skeleton/quotient_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -130,8 +131,7 @@ Rational meeting(const Scene& scene, int face, const std::array<ExactPoint, 2>& 
   const ExactPoint b = exact_point(scene.point(ids[1]));
   const ExactPoint c = exact_point(scene.point(ids[2]));
   const Rational x = exact_orient(a, b, c, line[0]);
-  const Rational y = exact_orient(a, b, c, line[1]);
-  return x / (x - y);
+  return quotient(x, x - exact_orient(a, b, c, line[1]));
 }
 
 // The lower envelopes of both wings.  `Family` compares cuts, rounds them to within

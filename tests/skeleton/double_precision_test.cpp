@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "linespace/mesh_io.h"
+#include "skeleton/end_index.h"
 #include "skeleton/skeleton.h"
+#include "skeleton/view_events.h"
 #include "tests/support/generators.h"
 
 namespace sightline {
@@ -28,14 +30,36 @@ void expect_told(const PolygonSoup& soup, EventMode mode) {
   });
 }
 
-// An outside program died of SIGFPE in it.
+// Events on random paths, which ask for far ends and for edges seen edge-on.
+void expect_events_told(const PolygonSoup& soup, std::uint64_t seed) {
+  const PrecisionScope precision(Precision::Double);
+  const Scene scene(soup);
+  SkeletonRequest request;
+  request.precision = Precision::Double;
+  EXPECT_NO_THROW({
+    const Skeleton skeleton = build_skeleton(scene, request);
+    const EndIndex ends(scene, skeleton);
+    const ViewEvents events(scene, skeleton, ends);
+    testing::Random random(seed);
+    for (int path = 0; path < 10; ++path) {
+      const Point a = testing::grid_point(random, scene, 0.3);
+      const Point b = testing::grid_point(random, scene, 0.3);
+      if (a != b) (void)events.crossed(a, b);
+    }
+  });
+}
+
+// `sightline skeleton cornell.obj --precision double` died of SIGFPE.
 TEST(DoublePrecision, TellsTheSampleScenes) {
   for (const char* name : {"cornell.obj", "room.obj"}) {
     SCOPED_TRACE(name);
     const PolygonSoup soup =
         read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/" + name);
     expect_told(soup, EventMode::Solid);
-    if (name == std::string("cornell.obj")) expect_told(soup, EventMode::Polygon);
+    if (name == std::string("cornell.obj")) {
+      expect_told(soup, EventMode::Polygon);
+      expect_events_told(soup, 1);
+    }
   }
 }
 
@@ -53,6 +77,7 @@ TEST(DoublePrecision, TellsWhatLinesUp) {
       p = Point(0.8 * p.x() - 0.6 * p.y(), 0.6 * p.x() + 0.8 * p.y(), p.z()) / 3;
     }
     expect_told(soup, random.one_in(2) ? EventMode::Solid : EventMode::Polygon);
+    if (seed % 2 == 0) expect_events_told(soup, seed);
   }
 }
 

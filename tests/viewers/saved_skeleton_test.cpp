@@ -232,7 +232,7 @@ TEST_F(SavedSkeleton, EveryOptionIsRefusedOrObeyed) {
                                         "--budget 60",
                                         "--format obj"};
   std::mt19937 engine(7);
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < 25; ++i) {
     // A part, or a perturbed scene, saved with what it was built with.
     const std::array builds{"--kinds EV", "--kinds EV --events polygon",
                             "--kinds EV --between tall_block short_block"};
