@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "linespace/portal_families_internal.h"
+#include "linespace/portal_nearby_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -41,6 +42,61 @@ Sign common_side(const ExactLine& line, const Portal& polygon) {
   }
   return Sign::Zero;
 }
+
+// ---- rank -----------------------------------------------------------------------------
+
+using Q = CGAL::Gmpq;
+
+Q product(const PlueckerRow& a, const PlueckerRow& b) {
+  Q sum = 0;
+  for (int k = 0; k < 3; ++k) sum += a[k] * b[3 + k] + a[3 + k] * b[k];
+  return sum;
+}
+
+/// Independent rows, each with a column that is 1 in it and 0 in all others.
+class RowSpace {
+ public:
+  [[nodiscard]] int rank() const { return static_cast<int>(rows_.size()); }
+
+  void add(PlueckerRow row) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) subtract(row, rows_[i], columns_[i]);
+    int column = 0;
+    while (column < 6 && row[column] == 0) ++column;
+    if (column == 6) return;
+    const Q scale = row[column];
+    for (Q& x : row) x /= scale;
+    for (PlueckerRow& other : rows_) subtract(other, row, column);
+    rows_.push_back(row);
+    columns_.push_back(column);
+  }
+
+  /// A basis of the lines (and other vectors) whose product with all rows is 0.
+  [[nodiscard]] std::vector<PlueckerRow> complement() const {
+    std::vector<PlueckerRow> basis;
+    for (int column = 0; column < 6; ++column) {
+      if (std::ranges::count(columns_, column) > 0) continue;
+      PlueckerRow v;
+      v.fill(0);
+      v[column] = 1;
+      for (std::size_t i = 0; i < rows_.size(); ++i) v[columns_[i]] = -rows_[i][column];
+      basis.push_back({v[3], v[4], v[5], v[0], v[1], v[2]});
+    }
+    return basis;
+  }
+
+ private:
+  static void subtract(PlueckerRow& row, const PlueckerRow& other, int column) {
+    const Q factor = row[column];
+    if (factor == 0) return;
+    for (int k = 0; k < 6; ++k) row[k] -= factor * other[k];
+  }
+
+  std::vector<PlueckerRow> rows_;
+  std::vector<int> columns_;
+};
+
+// ---- what M touches
+// --------------------------------------------------------------------
 
 /// What M touches, as a table: an edge is touched in a place of M, and spans a plane with
 /// it.
@@ -179,7 +235,8 @@ class TouchTable {
     return true;
   }
 
-  void find_skew(LineFamilies& out) const {
+  /// The edges that lines near M may touch without keeping to a plane or a point.
+  [[nodiscard]] std::vector<Hold> skew_holds() const {
     std::vector<Hold> free;
     for (const Hold& hold : holds_) {
       if (!planes_[hold.plane].open_places[hold.place] || !may_leave_point(hold))
@@ -188,22 +245,84 @@ class TouchTable {
           free, [&hold](const Hold& other) { return other.edge == hold.edge; });
       if (!known) free.push_back(hold);
     }
-    const auto skew = [](const Hold& a, const Hold& b) {
-      return a.place != b.place && a.plane != b.plane;
-    };
+    return free;
+  }
+
+  static bool skew(const Hold& a, const Hold& b) {
+    return a.place != b.place && a.plane != b.plane;
+  }
+
+  void find_skew(LineFamilies& out) const {
+    const std::vector<Hold> free = skew_holds();
     // An edge on M is in one plane with all others.
     if (along_ >= 0) out.edges.push_back(s_.carriers[along_]);
     for (std::size_t i = 0; i < free.size(); ++i) {
       out.edges.push_back(free[i].edge);
       for (std::size_t j = i + 1; j < free.size(); ++j) {
+        if (skew(free[i], free[j])) out.pairs.push_back({free[i].edge, free[j].edge});
+      }
+    }
+    if (free.size() > 2) find_triples(free, out);
+  }
+
+  /// All holds as edges of NearbyLines, those of `free` first.
+  [[nodiscard]] NearbyLines nearby(const std::vector<Hold>& free) const {
+    std::vector<NearbyLines::Edge> edges;
+    const auto add = [&](const Hold& hold) {
+      const AllowedSide allowed = hold.bound == Bound::None     ? AllowedSide::Any
+                                  : hold.bound == Bound::Both   ? AllowedSide::None
+                                  : hold.side == Sign::Positive ? AllowedSide::Positive
+                                                                : AllowedSide::Negative;
+      edges.push_back({edge(hold.touched), allowed});
+    };
+    for (const Hold& hold : free) add(hold);
+    for (const Hold& hold : holds_) add(hold);
+    return {m_.line, edges};
+  }
+
+  /// Three edges skew to each other, once for all edges of one regulus.
+  void find_triples(const std::vector<Hold>& free, LineFamilies& out) const {
+    const NearbyLines lines = nearby(free);
+    const int n = static_cast<int>(free.size());
+    std::vector<std::vector<char>> reguli;  // of more than three edges: which are on it
+    for (int i = 0; i < n; ++i) {
+      for (int j = i + 1; j < n; ++j) {
         if (!skew(free[i], free[j])) continue;
-        out.pairs.push_back({free[i].edge, free[j].edge});
-        for (std::size_t k = j + 1; k < free.size(); ++k) {
+        for (int k = j + 1; k < n; ++k) {
           if (!skew(free[i], free[k]) || !skew(free[j], free[k])) continue;
+          if (std::ranges::any_of(reguli, [&](const std::vector<char>& on) {
+                return on[i] && on[j] && on[k];
+              })) {
+            continue;
+          }
+          const NearbyLines::Way way = lines.way(i, j, k);
+          if (!lines.may_pass(way)) continue;
           out.triples.push_back({free[i].edge, free[j].edge, free[k].edge});
+          std::vector<char> on = regulus(free, lines, {i, j, k});
+          if (std::ranges::count(on, 1) > 3) reguli.push_back(std::move(on));
         }
       }
     }
+  }
+
+  /// Which edges are on the regulus of three: all lines that touch these touch them too.
+  [[nodiscard]] std::vector<char> regulus(const std::vector<Hold>& free,
+                                          const NearbyLines& lines,
+                                          const std::array<int, 3>& three) const {
+    std::vector<char> on(free.size(), 0);
+    const NearbyLines::Way way = lines.way(three[0], three[1], three[2]);
+    RowSpace space;
+    for (const int i : three) {
+      on[i] = 1;
+      space.add(pluecker(edge(free[i].edge)));
+    }
+    for (std::size_t h = 0; h < free.size(); ++h) {
+      if (on[h] || !lines.may_touch(way, static_cast<int>(h))) continue;
+      RowSpace with = space;
+      with.add(pluecker(edge(free[h].edge)));
+      on[h] = with.rank() == space.rank() ? 1 : 0;
+    }
+    return on;
   }
 
   /// The plane of a class by three corners, if it is held by more than one edge.
@@ -277,58 +396,6 @@ class TouchTable {
   int along_ = -1;  // an edge on M
   std::vector<Hold> holds_;
   std::vector<PlaneClass> planes_;
-};
-
-// ---- rank -----------------------------------------------------------------------------
-
-using Q = CGAL::Gmpq;
-
-Q product(const PlueckerRow& a, const PlueckerRow& b) {
-  Q sum = 0;
-  for (int k = 0; k < 3; ++k) sum += a[k] * b[3 + k] + a[3 + k] * b[k];
-  return sum;
-}
-
-/// Independent rows, each with a column that is 1 in it and 0 in all others.
-class RowSpace {
- public:
-  [[nodiscard]] int rank() const { return static_cast<int>(rows_.size()); }
-
-  void add(PlueckerRow row) {
-    for (std::size_t i = 0; i < rows_.size(); ++i) subtract(row, rows_[i], columns_[i]);
-    int column = 0;
-    while (column < 6 && row[column] == 0) ++column;
-    if (column == 6) return;
-    const Q scale = row[column];
-    for (Q& x : row) x /= scale;
-    for (PlueckerRow& other : rows_) subtract(other, row, column);
-    rows_.push_back(row);
-    columns_.push_back(column);
-  }
-
-  /// A basis of the lines (and other vectors) whose product with all rows is 0.
-  [[nodiscard]] std::vector<PlueckerRow> complement() const {
-    std::vector<PlueckerRow> basis;
-    for (int column = 0; column < 6; ++column) {
-      if (std::ranges::count(columns_, column) > 0) continue;
-      PlueckerRow v;
-      v.fill(0);
-      v[column] = 1;
-      for (std::size_t i = 0; i < rows_.size(); ++i) v[columns_[i]] = -rows_[i][column];
-      basis.push_back({v[3], v[4], v[5], v[0], v[1], v[2]});
-    }
-    return basis;
-  }
-
- private:
-  static void subtract(PlueckerRow& row, const PlueckerRow& other, int column) {
-    const Q factor = row[column];
-    if (factor == 0) return;
-    for (int k = 0; k < 6; ++k) row[k] -= factor * other[k];
-  }
-
-  std::vector<PlueckerRow> rows_;
-  std::vector<int> columns_;
 };
 
 /// Three lines through a point, parallel to the axes.

@@ -5,6 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <ctime>
 #include <map>
 #include <numbers>
 #include <set>
@@ -579,6 +581,109 @@ TEST(PortalSequence, TriesNoMoreLinesInLongRowsThanInShortOnes) {
                       name == "touching" || name == "one edge";
     EXPECT_EQ(s.room(), thin ? StabbingRoom::Thin : StabbingRoom::Open) << name;
     EXPECT_LE(s.swaths(3).size(), 200U) << name;
+  }
+}
+
+/// Doors with their lower edges on one axis, turned about it from door to door by the
+/// given turns of a circle's 64th.
+Portals screw(int n, int turns, RandomGeometry& random) {
+  Portals row;
+  for (int i = 0; i < n; ++i) {
+    const double angle = 2 * M_PI / 64 * turns * i + 0.01 * random.integer(0, 9);
+    const double c = std::round(64 * std::cos(angle)),
+                 s = std::round(64 * std::sin(angle));
+    const double z = 5.0 * i;
+    row.push_back(
+        {{-c, -s, z}, {c, s, z}, {c - 2 * s, s + 2 * c, z}, {-c - 2 * s, -s + 2 * c, z}});
+  }
+  return row;
+}
+
+/// Doors with their lower edges on one family of rulings of z = xy.
+Portals rulings(int n, double width) {
+  Portals row;
+  for (int i = 0; i < n; ++i) {
+    const double x = i, z = width * i;
+    row.push_back(
+        {{x, -width, -z}, {x, width, z}, {x, width, z + 100}, {x, -width, -z + 100}});
+  }
+  return row;
+}
+
+/// The same, but that the edges lean along the x axis, on which all have a point: to the
+/// first order lines near the axis touch all of them, to the second they do not.
+Portals leaning_rulings(int n, RandomGeometry& random) {
+  Portals row;
+  for (int i = 0; i < n; ++i) {
+    const Eigen::Vector3d p(5 * i, 0, 0), u(0.5 * random.integer(-2, 2), 1, i);
+    const Eigen::Vector3d up(0, -4 * i, 4);
+    row.push_back({p - u, p + u, p + u + up, p - u + up});
+  }
+  return row;
+}
+
+TEST(PortalSequence, AgreesWithTheNaiveEnumerationOnScrewsAndReguli) {
+  RandomGeometry random(30);
+  for (int i = 0; i < 12; ++i) {
+    const Portals portals = i % 3 == 0 ? rulings(3 + i % 2, random.integer(1, 4))
+                            : i % 3 == 1
+                                ? leaning_rulings(4, random)
+                                : screw(3 + i % 2, random.integer(1, 12), random);
+    EXPECT_EQ(undirected(described(sequence(portals))),
+              undirected(naive_extremal_lines(portals)))
+        << text(portals);
+  }
+}
+
+// Touched edges that all differ in place and in plane: of their triples only those are
+// tried that no other edge contradicts, and one of those on one regulus.
+TEST(PortalSequence, TriesFewTriplesOfScrewsAndReguli) {
+  RandomGeometry random(31);
+  const auto most_candidates = [](const Portals& portals) {
+    PortalSequence s;
+    std::size_t most = 0;
+    for (const NaivePortal& p : portals) {
+      s.push(p);
+      most = std::max(most, s.last_push().candidates);
+    }
+    EXPECT_TRUE(s.stabbable());
+    return most;
+  };
+  EXPECT_LE(most_candidates(screw(40, 3, random)), 4'000U);
+  EXPECT_LE(most_candidates(screw(40, 1, random)), 7'000U);
+  EXPECT_LE(most_candidates(rulings(16, 4)), 4'000U);
+}
+
+// Rows of equal doors, at any distances, sheared, turned by right angles, at any power of
+// two: what stabs the first and the last stabs all.
+TEST(PortalSequence, RowsOfDoorsHaveSixteenLinesWhateverTheirMap) {
+  for (int seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE(seed);
+    RandomGeometry random(seed);
+    const int n = seed < 39 ? 2 + seed : random.integer(2, 12);
+    const double width = random.integer(1, 4), height = random.integer(1, 4);
+    const double shift_x = random.integer(-1, 1), shift_z = random.integer(-1, 1);
+    const double scale = std::ldexp(1.0, random.integer(-120, 120));
+    const int axis = random.integer(0, 2), mirrored = random.integer(0, 1);
+    Portals portals;
+    double y = random.integer(-9, 9);
+    for (int i = 0; i < n; ++i) {
+      portals.push_back(door(y, 0, width, 0, height));
+      for (Eigen::Vector3d& v : portals.back()) {
+        const Eigen::Vector3d sheared(v.x() + shift_x * y, v.y(), v.z() + shift_z * y);
+        v = scale * Eigen::Vector3d(sheared[axis], sheared[(axis + 1) % 3],
+                                    (mirrored ? -1 : 1) * sheared[(axis + 2) % 3]);
+      }
+      y += random.integer(1, 6);
+    }
+    const std::clock_t start = std::clock();
+    const PortalSequence s = sequence(portals);
+    EXPECT_EQ(s.room(), StabbingRoom::Open);
+    const auto expected = n == 2
+                              ? std::map<std::string, int>{{"VV", 16}}
+                              : std::map<std::string, int>{{"VV", 4}, {"degenerate", 12}};
+    EXPECT_EQ(counts(s), expected);
+    EXPECT_LT(std::clock() - start, CLOCKS_PER_SEC) << n;
   }
 }
 
