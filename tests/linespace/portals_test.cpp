@@ -635,6 +635,18 @@ TEST(PortalSequence, AgreesWithTheNaiveEnumerationOnScrewsAndReguli) {
   }
 }
 
+// The other way round other old lines stand for the same families.
+TEST(PortalSequence, ScrewsAndReguliHaveTheSameLinesFromEitherEnd) {
+  RandomGeometry random(32);
+  for (int i = 0; i < 16; ++i) {
+    Portals portals = i % 4 == 0 ? screw(8, random.integer(1, 4), random)
+                                 : leaning_rulings(5 + i % 4, random);
+    const auto there = counts(sequence(portals));
+    std::ranges::reverse(portals);
+    EXPECT_EQ(counts(sequence(portals)), there) << i << text(portals);
+  }
+}
+
 // Touched edges that all differ in place and in plane: of their triples only those are
 // tried that no other edge contradicts, and one of those on one regulus.
 TEST(PortalSequence, TriesFewTriplesOfScrewsAndReguli) {
