@@ -528,7 +528,8 @@ Command add_analyse_command(CLI::App& app) {
                    "only these analyses, separated by commas; known: skeleton "
                    "(default: all that apply)")
       ->type_name("NAME,...")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command
       ->add_option("--up", options->up,
                    "the axis that points up in the pictures (default: guessed)")

@@ -85,6 +85,7 @@ void add_region_option(CLI::App& app, std::vector<double>& region) {
          "(default: everywhere)")
       ->type_name("BOX")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->expected(6)
       ->check(finite_number());
 }

@@ -408,7 +408,8 @@ Command add_skeleton_command(CLI::App& app) {
           "and an edge, EEE, through three edges; and FF, lines in the planes of two "
           "faces (default EV,EEE,FF)")
       ->type_name("EV,EEE,FF")
-      ->delimiter(',');
+      ->delimiter(',')
+      ->allow_extra_args(false);
   command
       ->add_option(
           "--between", options->between,
@@ -416,7 +417,8 @@ Command add_skeleton_command(CLI::App& app) {
           "other way round, and EEE arcs with the outer edges one on each; a "
           "group is a name or #i-j, faces i to j from 0")
       ->type_name("A B")
-      ->expected(2);
+      ->expected(2)
+      ->allow_extra_args(false);
   command
       ->add_option(
           "--through", options->through,
@@ -441,6 +443,7 @@ Command add_skeleton_command(CLI::App& app) {
                    "x,y,z (an edge with some point of it)")
       ->type_name("x,y,z")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->expected(3)
       ->check(finite_number());
   command->add_option("--radius", options->radius, "of --near, in scene units")
@@ -455,7 +458,8 @@ Command add_skeleton_command(CLI::App& app) {
           "only arcs between two boxes, each x0,y0,z0,x1,y1,z1: EV arcs with the vertex "
           "in one and the edge in the other, EEE arcs with the outer edges one in each")
       ->type_name("BOX BOX")
-      ->expected(2);
+      ->expected(2)
+      ->allow_extra_args(false);
   command
       ->add_option("--feature-size", options->feature_size,
                    "features below this size in scene units make no events but still "
@@ -499,7 +503,8 @@ Command add_skeleton_command(CLI::App& app) {
                    "list the arcs with a line that runs from one group to the other, or "
                    "to the outside")
       ->type_name("A B")
-      ->expected(2);
+      ->expected(2)
+      ->allow_extra_args(false);
   command
       ->add_option("--crossed", options->crossed,
                    "list the events that a viewpoint crosses on its way from one point "
@@ -507,7 +512,8 @@ Command add_skeleton_command(CLI::App& app) {
                    "the point, the kind (EV, EEE, or F: a face turns), generators; "
                    "events in one point are marked =")
       ->type_name("X,Y,Z X,Y,Z")
-      ->expected(2);
+      ->expected(2)
+      ->allow_extra_args(false);
   add_common_options(*command, *options);
   return command_of(options, run);
 }

@@ -309,6 +309,7 @@ Command add_view_command(CLI::App& app) {
                    "width,height of the picture in pixels (default 1400,980)")
       ->type_name("W,H")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->expected(2)
       ->check(whole_number(16, 16384));
   command
@@ -320,6 +321,7 @@ Command add_view_command(CLI::App& app) {
           "that ends just below it (default: everything)")
       ->type_name("BOX")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->expected(6)
       ->check(finite_number())
       ->needs(png);
@@ -330,6 +332,7 @@ Command add_view_command(CLI::App& app) {
                    "(default: all)")
       ->type_name("KIND,...")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->needs(png);
   CLI::Option* eye =
       command
@@ -340,6 +343,7 @@ Command add_view_command(CLI::App& app) {
                        "(default: from where most is seen)")
           ->type_name("POINT")
           ->delimiter(',')
+          ->allow_extra_args(false)
           ->expected(3)
           ->check(finite_number())
           ->needs(png);
@@ -349,6 +353,7 @@ Command add_view_command(CLI::App& app) {
                    "middle of the box or of the scene)")
       ->type_name("POINT")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->expected(3)
       ->check(finite_number())
       ->needs(eye);

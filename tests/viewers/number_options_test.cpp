@@ -2,6 +2,7 @@
 // for a number: one line and status 2, or an answer.  Never a signal, never silence.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -243,6 +244,37 @@ TEST_F(NumberOptions, TakeWhatIsANumberAndRefuseTheRestInOneLine) {
     shell("rm -rf out out.png");
   }
   EXPECT_GT(refused, 100);
+}
+
+// `--region 0,0,0,9,9,9 scene.obj --list` took the scene for a seventh number.
+TEST_F(NumberOptions, LeaveTheFileBehindThemAlone) {
+  std::vector<std::array<std::string, 2>> options;  // with what begins the command line
+  for (const NumberOption& option : number_options()) {
+    std::string value = option.value;
+    value.replace(value.find('#'), 1,
+                  option.name == "--size"  ? "60"
+                  : option.name == "--box" ? "0"
+                                           : "2");
+    options.push_back({option.command, option.with + " " + option.name + " " + value});
+  }
+  options.push_back({"skeleton", "--kinds EV"});
+  options.push_back({"skeleton", "--kinds EV,FF"});
+  options.push_back({"skeleton", "--between a b"});
+  options.push_back({"skeleton", "--between-ends a outside"});
+  options.push_back({"analyse", "--only skeleton"});
+  const std::map<std::string, std::string> rest{
+      {"info", "s.obj --json -"},        {"skeleton", "s.obj --json -"},
+      {"analyse", "s.obj -o out"},       {"view", "s.obj --png out.png"},
+      {"transversals", "t.json --list"}, {"stab", "p.json --list"},
+      {"visible", "s.obj a b --json -"}};
+  for (const auto& [command, option] : options) {
+    // A report takes a second.
+    if (command == "analyse" && option != "--only skeleton") continue;
+    const std::string line = "$S " + command + " " + option + " " + rest.at(command);
+    const Run r = shell(line);
+    EXPECT_TRUE(r.status == 0 || r.status == 3) << line << "\n" << r.err;
+    shell("rm -rf out out.png");
+  }
 }
 
 }  // namespace
