@@ -624,7 +624,7 @@ Portals leaning_rulings(int n, RandomGeometry& random) {
 
 TEST(PortalSequence, AgreesWithTheNaiveEnumerationOnScrewsAndReguli) {
   RandomGeometry random(30);
-  for (int i = 0; i < 12; ++i) {
+  for (int i = 0; i < 9; ++i) {
     const Portals portals = i % 3 == 0 ? rulings(3 + i % 2, random.integer(1, 4))
                             : i % 3 == 1
                                 ? leaning_rulings(4, random)
