@@ -168,6 +168,7 @@ PolygonSoup read_scene(const AssimpFile& file) {
 
 PolygonSoup read_with_assimp(const AssimpFile& file, Stage& stage) {
   if (is_ifc(file)) check_step(file.path, file.bytes, stage);
+  if (file.format == "dae") check_collada(file.path, file.bytes, stage);
   return read_in_child(
       file.path, file.bytes.size(), [&] { stage.check(0); },
       [&] { return read_scene(file); });

@@ -113,6 +113,9 @@ void append_strip_triangle(std::vector<std::vector<int>>& polygons,
 /// records of a name that IFC 2x3 does not have: assimp would leave those out.
 void check_step(const std::string& path, std::string_view text, Stage& stage);
 
+/// Refuses a Collada file whose positions have columns for some of x, y and z only.
+void check_collada(const std::string& path, std::string_view text, Stage& stage);
+
 /// A file that assimp is to read.
 struct AssimpFile {
   const std::string& path;  ///< or its name in messages

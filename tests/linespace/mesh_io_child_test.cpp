@@ -162,6 +162,24 @@ TEST(ReadMesh, MisspeltEntitiesOfIfcAreNamed) {
   }
 }
 
+// assimp would take y for x in a file that has no x.
+TEST(ReadMesh, ColladaPositionsNeedAllOfTheirColumns) {
+  const auto told = [](const std::string& params, const std::string& semantic) {
+    const std::string text =
+        "<!-- <source id='p'> --><source\n id = 'q'/><source id='p'>" + params +
+        "</source><input source=\"#p\" semantic='" + semantic + "'/>";
+    return complaint([&] { internal::check_collada("x", text, test::Unhurried()); });
+  };
+  EXPECT_EQ(told("<param name='X'/><param name='Y'/><param name='Z'/>", "POSITION"), "");
+  EXPECT_EQ(told("<param name='Z'/><param name='X'/><param name='Y'/>", "POSITION"), "");
+  EXPECT_EQ(told("<param name='X'/><param name='Y'/>", "POSITION"),
+            "x: the positions 'p' have no param Z");
+  EXPECT_EQ(told("<param name='Z'/>", "POSITION"),
+            "x: the positions 'p' have no param X");
+  EXPECT_EQ(told("<param name='X'/>", "OUTPUT"), "");  // of an animation
+  EXPECT_EQ(told("<param/><param/><param/>", "POSITION"), "");
+}
+
 // Damaged copies are read or refused in one line.
 TEST(ReadMesh, SurvivesDamagedSceneFiles) {
   std::mt19937 random(2);

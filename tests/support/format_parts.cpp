@@ -58,10 +58,11 @@ FilePart dae_parts() {
       "<source id=\"p\">",
       {{"<float_array id=\"a\" count=\"24\">" + floats + "</float_array>"},
        {"<technique_common>",
-        // Without one of these assimp takes another for it, and says nothing.
-        {{"<accessor source=\"#a\" count=\"8\" stride=\"3\">"
-          "<param name=\"X\" type=\"float\"/><param name=\"Y\" type=\"float\"/>"
-          "<param name=\"Z\" type=\"float\"/></accessor>"}},
+        {{"<accessor source=\"#a\" count=\"8\" stride=\"3\">",
+          {{"<param name=\"X\" type=\"float\"/>"},
+           {"<param name=\"Y\" type=\"float\"/>"},
+           {"<param name=\"Z\" type=\"float\"/>"}},
+          "</accessor>"}},
         "</technique_common>"}},
       "</source>"};
   const FilePart mesh{"<mesh>",
