@@ -5,6 +5,7 @@
 #include "skeleton/edge_pair_internal.h"
 #include "skeleton/irrational_line_internal.h"
 #include "skeleton/node_contacts_internal.h"
+#include "skeleton/quotient_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -61,7 +62,7 @@ Rational parameter_on(const Point& p, const Point& q,
       exact_cross(way, exact_difference(exact_point(q), exact_point(p)));
   std::size_t axis = 0;
   while (axis < 2 && step[axis] == 0) ++axis;
-  return -from[axis] / step[axis];
+  return quotient(Rational(-from[axis]), step[axis]);
 }
 
 }  // namespace

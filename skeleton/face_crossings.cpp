@@ -7,6 +7,7 @@
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/face_crossings_internal.h"
 #include "skeleton/node_contacts_internal.h"
+#include "skeleton/quotient_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -40,7 +41,7 @@ std::optional<Segment> cut_by_plane(const Generators& g, int face, int plane_of)
     if (s == Sign::Zero || signs[(k + 1) % n] != -s) continue;
     const Rational a = value(p);
     met.push_back(along(exact_point(scene.point(p)), exact_point(scene.point(q)),
-                        a / (a - value(q))));
+                        quotient(a, Rational(a - value(q)))));
   }
   if (met.size() != 2) return std::nullopt;
   return Segment{met[0], met[1]};
