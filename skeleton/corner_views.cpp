@@ -40,7 +40,7 @@ CornerViews::CornerViews(const Generators& generators, const EvPart& part,
 std::vector<VertexView> CornerViews::views(std::span<const int> stars,
                                            const std::function<bool()>& stop) {
   while (viewers_.size() < stars.size()) {
-    viewers_.emplace_back(g_, part_, lines_, feature_size_, around_);
+    viewers_.emplace_back(g_, part_, lines_, feature_size_, around_, known_);
   }
   std::vector<Point> points;
   std::vector<std::size_t> all;

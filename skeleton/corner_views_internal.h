@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "skeleton/known_lines_internal.h"
 #include "skeleton/surroundings_internal.h"
 #include "skeleton/vertex_view_internal.h"
 
@@ -35,6 +36,7 @@ class CornerViews {
   const SkeletonLines* lines_;
   double feature_size_;
   Surroundings around_;
+  KnownLines known_;
   std::deque<VertexViewer> viewers_;
 };
 

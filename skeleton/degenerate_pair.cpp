@@ -7,6 +7,8 @@
 #include "linespace/stop_scope_internal.h"
 #include "skeleton/degenerate_pair_internal.h"
 #include "skeleton/drawn_internal.h"
+#include "skeleton/known_lines_internal.h"
+#include "skeleton/line_probe_internal.h"
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/plane_crossings_internal.h"
 #include "skeleton/plane_values_internal.h"
@@ -55,6 +57,17 @@ std::vector<int> faces_towards(const Generators& g, const Point& v, const Point&
     if (hull.may_meet(g.face_box(f))) found.push_back(f);
   }
   return found;
+}
+
+// Of a node that was added without: kind, generators.
+void name_node(VertexView& view, std::uint32_t id, const NodeContacts& contacts) {
+  SkeletonNode& node = view.nodes[id];
+  node.kind = contacts.kind;
+  node.self = contacts.self;
+  node.first_generator = static_cast<std::uint32_t>(view.pool.size());
+  node.generator_count = static_cast<std::uint32_t>(contacts.generators.size());
+  view.pool.insert(view.pool.end(), contacts.generators.begin(),
+                   contacts.generators.end());
 }
 
 }  // namespace
@@ -129,6 +142,16 @@ std::uint32_t contact_node(const Generators& g, const Star& star, const Ridge& r
                            std::span<const std::int32_t> meeting, const Cut& cut,
                            const std::array<bool, 2>& arc_ends, VertexView& out) {
   const Scene& scene = g.scene();
+  const Point& v = scene.point(star.point);
+  const LineThrough line{scene.point(ridge.points[0]), scene.point(ridge.points[1])};
+  if (!g.polygon()) {
+    // All its contacts are listed later (find_further_contacts), and name it.
+    const Point x = line.from + cut.parameter() * (line.to - line.from);
+    const std::uint32_t node =
+        out.add_node(NodeKind::Degenerate, false, false, {}, {v, x}, arc_ends);
+    out.special[node] = VertexView::kUnnamed;
+    return node;
+  }
   std::vector<int> faces(meeting.begin(), meeting.end());
   faces.insert(faces.end(), star.faces.begin(), star.faces.end());
   const int far = cut.kind == CutKind::Start ? ridge.points[0]
@@ -141,9 +164,7 @@ std::uint32_t contact_node(const Generators& g, const Star& star, const Ridge& r
   sort_unique(faces);
   const ExactPoint x0 = exact_point(scene.point(ridge.points[0]));
   const ExactPoint x1 = exact_point(scene.point(ridge.points[1]));
-  const LineThrough line{scene.point(ridge.points[0]), scene.point(ridge.points[1])};
   const ExactPoint x = along(x0, x1, exact_parameter(scene, line, cut));
-  const Point& v = scene.point(star.point);
   return add_node_at(g, v, x, LineScan(scene, faces, exact_point(v), x), arc_ends, out);
 }
 
@@ -270,7 +291,7 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
 }
 
 void find_further_contacts(const Generators& g, const Star& star, LineProbe& probe,
-                           VertexView& view) {
+                           KnownLines& known, VertexView& view) {
   const Scene& scene = g.scene();
   const Point& v = scene.point(star.point);
   const ExactPoint from = exact_point(v);
@@ -323,9 +344,17 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     hear_stop_now();
     const ExactPoint x = point_on(arc, cut);
     const ExactPoint& start = other ? *other : from;
-    const LineScan scan(scene, faces_near_line(g, rounded(start), rounded(x)), start, x);
-    NodeContacts all =
-        contacts_along(g, scan, {start, x}, node.end, view.grazes[id] != 0);
+    LineQuestion question{.grazes = view.grazes[id] != 0};
+    const bool named = view.special[id] != VertexView::kUnnamed;
+    if (named) question.end = node.end;
+    question.between = !named;
+    LineContacts found = contacts_of_line(g, probe, known, {start, x}, question);
+    NodeContacts& all = found.along;
+    if (!named) {
+      const bool keep = all.generators.empty() || all.kind != NodeKind::Degenerate;
+      name_node(view, id, keep ? found.between.value_or(NodeContacts{}) : NodeContacts{});
+      node.end = found.end;
+    }
     if (all.generators.empty()) return;
     if (all.kind == node.kind && all.kind != NodeKind::Degenerate) {
       if (!g.polygon() || ends_one_arc(all.kind)) return;

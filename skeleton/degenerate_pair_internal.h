@@ -16,6 +16,8 @@
 
 namespace sightline::internal {
 
+class KnownLines;
+
 /// All positions strictly inside the edge e0 e1 where the contacts of its lines through
 /// the star's point with these faces can change, in order, without repeats.  `plane` is
 /// that of the point and the edge; positions that no three points span go to `positions`,
@@ -34,8 +36,9 @@ void add_degenerate_pair(const Generators& generators, const Star& star,
                          const CutUnion& closed, std::span<const CutInterval> ending,
                          std::span<const std::int32_t> faces, VertexView& out);
 
-/// The node at a cut of a ridge as its contacts make it, found among `faces` (all that
-/// meet the triangle between).  `arc_ends` are those of the arc that ends there.
+/// The node at a cut of a ridge as its contacts make it: in solid mode left to
+/// find_further_contacts(), in polygon mode found among `faces` (all that meet the
+/// triangle between).  `arc_ends` are those of the arc that ends there.
 std::uint32_t contact_node(const Generators& generators, const Star& star,
                            const Ridge& ridge, std::span<const std::int32_t> faces,
                            const Cut& cut, const std::array<bool, 2>& arc_ends,
@@ -47,6 +50,6 @@ std::uint32_t contact_node(const Generators& generators, const Star& star,
 /// `probe` is not certain of: whatever else was asked for, so that a part names its nodes
 /// as the whole does.
 void find_further_contacts(const Generators& generators, const Star& star,
-                           LineProbe& probe, VertexView& view);
+                           LineProbe& probe, KnownLines& known, VertexView& view);
 
 }  // namespace sightline::internal

@@ -150,16 +150,18 @@ bool EdgePairs::gather(const Outer& outer) {
     return false;
   }
   if (!view_.look(open_, q0, q1, first_parts_, faces_)) return false;
-  const auto linear = [](const PlaneValues& v) {
+  const auto on_edge = [](const PlaneValues& v) {
     return PairCells::Linear{v.at0.value, v.at1.value, std::max(v.at0.error, v.at1.error),
                              v.sign0 == Sign::Zero, v.sign1 == Sign::Zero};
   };
-  cells_.begin({{linear(outer.first_planes[0]), linear(outer.first_planes[1])},
+  cells_.begin({{on_edge(outer.first_planes[0]), on_edge(outer.first_planes[1])},
                 touched_on(first),
-                (p1 - p0).norm()},
-               {{linear(outer.last_planes[0]), linear(outer.last_planes[1])},
+                (p1 - p0).norm(),
+                visible_range(first.buried)},
+               {{on_edge(outer.last_planes[0]), on_edge(outer.last_planes[1])},
                 touched_on(last),
-                (q1 - q0).norm()});
+                (q1 - q0).norm(),
+                visible_range(last.buried)});
   others_.clear();
   for (const int face : faces_) {
     if (is_of(first, face) || is_of(last, face)) continue;
@@ -176,7 +178,7 @@ bool EdgePairs::gather(const Outer& outer) {
       cell_sides_.push_back(
           {&form_of(outer, side.carrier), carriers_.ridge[side.carrier], side.forward});
     }
-    cells_.add_face(face, occluder_key(g_, face), front_only, linear(p), linear(q),
+    cells_.add_face(face, occluder_key(g_, face), front_only, on_edge(p), on_edge(q),
                     cell_sides_);
   }
   const std::function<bool(int)> is_middle = [&](int m) {
@@ -297,8 +299,12 @@ void EdgePairs::visit_curve(const Outer& outer, int middle, bool turned,
   const BoundedLinear& w1 = beside_last(outer, r.points[1]);
   if (w0.constant() && w1.constant() && w0.sign0 == w1.sign0) return;
   const EeeCurve curve(outer.points, carriers_.all, carrier, form_of(outer, carrier));
-  bool degenerate =
-      r.touched || g_.ridges()[outer.first].touched || g_.ridges()[outer.last].touched;
+  const auto touched_along = [&](int ridge) {
+    return g_.ridges()[ridge].touched_along();
+  };
+  const bool touched =
+      r.touched_along() || touched_along(outer.first) || touched_along(outer.last);
+  bool degenerate = touched;  // or lines of the curve lie in the plane of a face
   find_stretches(outer, r, curve, degenerate);
   for (std::size_t i = 0; i < stretches_.size(); ++i) {
     const Stretch stretch = stretches_[i];
@@ -311,7 +317,10 @@ void EdgePairs::visit_curve(const Outer& outer, int middle, bool turned,
     if (covered) continue;
     for (const CurveInterval& part : open_parts(curve, stretch.part)) {
       const Stretch open{part, stretch.f0, stretch.ends};
-      if (!degenerate) {
+      const bool all_free =
+          !passes_pierced(outer, curve, middle, part) &&
+          (!degenerate || (!touched && free_in_plane(outer, curve, middle)));
+      if (all_free) {
         add_arc(outer, curve, middle, open, out);
         continue;
       }
@@ -365,10 +374,6 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
     vanishes = c.values.sign0 == Sign::Zero;
     degenerate |= vanishes;
     constraints_.push_back(c);
-  };
-  const auto linear = [](const PlaneValues& v) {
-    return BoundedLinear{v.at0.value, v.at1.value, v.at0.error,
-                         v.at1.error, v.sign0,     v.sign1};
   };
   // 0, 1: F0 and F1, of opposite signs inside the square.
   for (int b = 0; b < 2; ++b) {
@@ -471,22 +476,50 @@ void EdgePairs::find_blocked(const Outer& outer, const Ridge& middle,
                              const EeeCurve& curve, const CurveInterval& stretch, Sign f0,
                              bool turned, bool& covered, bool& degenerate) {
   closed_.clear();
-  for (std::size_t i = 0; i < blockers_.size(); ++i) {
+  std::size_t known = 0;  // of closed_: they do not cover the stretch
+  const auto covers = [&] {
+    for (; known < closed_.size(); ++known) {
+      const CurveInterval& c = closed_[known];
+      if (c.from.same_as(stretch.from) && c.to.same_as(stretch.to)) return true;
+    }
+    return false;
+  };
+  bury(outer, curve, stretch, f0);
+  covered = covers();
+  for (std::size_t i = 0; i < blockers_.size() && !covered; ++i) {
     const int face = blockers_[i];
     if (is_of(middle, face)) continue;
-    const std::size_t before = closed_.size();
     const Sign entry = turned ? Sign::Negative : Sign::Positive;
     block(outer, curve, face, stretch, f0, entry, degenerate);
     if (!enters_only(face)) {
       block(outer, curve, face, stretch, f0, -entry, degenerate);
     }
-    for (std::size_t k = before; k < closed_.size(); ++k) {
-      if (closed_[k].from.same_as(stretch.from) && closed_[k].to.same_as(stretch.to)) {
-        covered = true;
-        return;
-      }
-    }
+    covered = covers();
   }
+}
+
+// Where the values of a face's plane along an outer edge change sign.
+CurveCut EdgePairs::plane_cut(const BoundedLinear& l, CurveCutKind kind, int face) const {
+  CurveCut cut{kind, false, scene_.faces()[face].facet, plane_points(scene_, face), 0, 1};
+  enclose_root(l, cut);
+  return cut;
+}
+
+// Cuts the part at hand, the only one in parts_, down to where a linear polynomial has
+// the wanted sign: a face's plane along an outer edge, as the kind of cut says.  False
+// when nothing is left.
+bool EdgePairs::restrict_to(const EeeCurve& curve, const BoundedLinear& l, Sign wanted,
+                            CurveCutKind kind, int face) {
+  if (!l.ever(wanted)) return false;
+  if (l.sign0 != -wanted && l.sign1 != -wanted) return true;
+  const CurveCut cut = plane_cut(l, kind, face);
+  CurveInterval& part = parts_[0];
+  if (l.sign0 == wanted) {
+    if (curve.compare(cut, part.to) == Sign::Negative) part.to = cut;
+  } else if (curve.compare(part.from, cut) == Sign::Negative) {
+    part.from = cut;
+  }
+  return curve.compare(part.from, part.to) == Sign::Negative;
 }
 
 // Adds the parts of a stretch where the segment passes the face from its front (entry
@@ -498,32 +531,13 @@ void EdgePairs::block(const Outer& outer, const EeeCurve& curve, int face,
   if (p.sign0 != entry && p.sign1 != entry) return;
   if (q.sign0 != -entry && q.sign1 != -entry) return;
   parts_.assign(1, stretch);
-  const int facet = scene_.faces()[face].facet;
-  const std::array<std::int32_t, 3> points = plane_points(scene_, face);
-  // Cuts a linear polynomial's part of the wanted sign out of the (single) part.
-  const auto restrict_to = [&](const BoundedLinear& l, Sign wanted, CurveCutKind kind) {
-    if (!l.ever(wanted)) return false;
-    if (l.sign0 != -wanted && l.sign1 != -wanted) return true;
-    CurveCut cut{kind, false, facet, points, 0, 1};
-    enclose_root(l, cut);
-    CurveInterval& part = parts_[0];
-    if (l.sign0 == wanted) {
-      if (curve.compare(cut, part.to) == Sign::Negative) part.to = cut;
-    } else if (curve.compare(part.from, cut) == Sign::Negative) {
-      part.from = cut;
-    }
-    return curve.compare(part.from, part.to) == Sign::Negative;
-  };
-  if (p.sign0 != p.sign1) {
-    const BoundedLinear l{p.at0.value, p.at1.value, p.at0.error,
-                          p.at1.error, p.sign0,     p.sign1};
-    if (!restrict_to(l, entry, CurveCutKind::OnPlane)) return;
+  if (p.sign0 != p.sign1 &&
+      !restrict_to(curve, linear(p), entry, CurveCutKind::OnPlane, face)) {
+    return;
   }
-  if (q.sign0 != q.sign1) {
-    if (!restrict_to(curve.at_last_edge(q.at0, q.at1, points), -entry * f0,
-                     CurveCutKind::OnFar)) {
-      return;
-    }
+  if (q.sign0 != q.sign1 && !restrict_to(curve, at_last_edge(curve, q, face), -entry * f0,
+                                         CurveCutKind::OnFar, face)) {
+    return;
   }
   // From the front to the back the sides, counter-clockwise, have negative forms, which
   // have the sign of H times that of F0 - F1, and that is the sign of F0.

@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <vector>
@@ -13,6 +15,7 @@
 #include "skeleton/edge_view_internal.h"
 #include "skeleton/eee_curve_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/known_lines_internal.h"
 #include "skeleton/line_name_internal.h"
 #include "skeleton/line_probe_internal.h"
 #include "skeleton/pair_cells_internal.h"
@@ -47,6 +50,11 @@ struct FoundArc {
   EeeArc arc;  ///< without node numbers
   std::array<FoundNode, 2> ends;
 };
+
+/// A plane's values along the first edge as a polynomial in s.
+[[nodiscard]] inline BoundedLinear linear(const PlaneValues& v) {
+  return {v.at0.value, v.at1.value, v.at0.error, v.at1.error, v.sign0, v.sign1};
+}
 
 /// Visits pairs of ridges; keeps scratch, so one per thread.
 class EdgePairs {
@@ -93,10 +101,38 @@ class EdgePairs {
                     bool& degenerate);
   void block(const Outer& outer, const EeeCurve& curve, int face,
              const CurveInterval& stretch, Sign f0, Sign entry, bool& degenerate);
+  [[nodiscard]] bool restrict_to(const EeeCurve& curve, const BoundedLinear& l,
+                                 Sign wanted, CurveCutKind kind, int face);
+  [[nodiscard]] CurveCut plane_cut(const BoundedLinear& l, CurveCutKind kind,
+                                   int face) const;
+  // The plane's values at the last edge's contact, times F0 - F1.
+  [[nodiscard]] BoundedLinear at_last_edge(const EeeCurve& curve, const PlaneValues& q,
+                                           int face) const {
+    return curve.at_last_edge(q.at0, q.at1, plane_points(scene_, face));
+  }
+  void bury(const Outer& outer, const EeeCurve& curve, const CurveInterval& stretch,
+            Sign f0);
+  // Some face that pierces one of the three edges is such.
+  template <class Is>
+  [[nodiscard]] bool any_pierced(const Outer& outer, int middle, const Is& is) const {
+    const int ridges[] = {outer.first, middle, outer.last};
+    return std::any_of(std::begin(ridges), std::end(ridges), [&](int ridge) {
+      const auto& faces = g_.ridges()[ridge].pierced_by;
+      return std::any_of(faces.begin(), faces.end(), is);
+    });
+  }
+  [[nodiscard]] bool passes_pierced(const Outer& outer, const EeeCurve& curve, int middle,
+                                    const CurveInterval& open);
+  [[nodiscard]] bool ends_at_pierced(const Outer& outer, const EeeCurve& curve,
+                                     int middle, const CurveCut& cut);
   [[nodiscard]] std::vector<CurveInterval> open_parts(const EeeCurve& curve,
                                                       const CurveInterval& stretch);
   void add_arc(const Outer& outer, const EeeCurve& curve, int middle,
                const Stretch& stretch, std::vector<FoundArc>& out);
+  [[nodiscard]] std::optional<PlaneSide> plane_of_pencil(const Outer& outer,
+                                                         const EeeCurve& curve) const;
+  [[nodiscard]] bool free_in_plane(const Outer& outer, const EeeCurve& curve,
+                                   int middle) const;
   [[nodiscard]] std::vector<Stretch> free_parts(const Outer& outer, const EeeCurve& curve,
                                                 const Stretch& open);
   [[nodiscard]] std::vector<Rational> in_plane_stops(const Outer& outer,
@@ -112,12 +148,10 @@ class EdgePairs {
   [[nodiscard]] bool ends_at_corner(const Outer& outer, const EeeCurve& curve,
                                     const CurveCut& cut, int corner, Sign f0) const;
   [[nodiscard]] bool may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
-                                    const CurveCut& cut, const FoundNode& node);
-  [[nodiscard]] bool meets_foreign_face(const Outer& outer, const EeeCurve& curve,
-                                        int middle, const CurveCut& cut) const;
+                                    const CurveCut& cut);
   [[nodiscard]] bool any_touched(std::span<const Generator> edges) const;
   void list_contacts(const Outer& outer, const EeeCurve& curve, const CurveCut& cut,
-                     FoundNode& node) const;
+                     FoundNode& node);
   [[nodiscard]] bool rises_at(std::span<const Generator> edges,
                               const std::optional<std::array<ExactPoint, 2>>& line,
                               bool beyond_other) const;
@@ -165,6 +199,7 @@ class EdgePairs {
 
   // The node at hand.
   LineProbe probe_;
+  KnownLines known_;
   std::uint32_t node_stamp_ = 0;
   std::vector<std::uint32_t> node_stamps_;
 };

@@ -217,7 +217,7 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
     if (cut.kind == CurveCutKind::Far) std::swap(node.ends[0], node.ends[1]);
   }
   // Both outer edges may enter a face at once.
-  if (node.kind == NodeKind::Pierce || may_touch_more(outer, curve, middle, cut, node) ||
+  if (node.kind == NodeKind::Pierce || may_touch_more(outer, curve, middle, cut) ||
       may_touch_beyond(outer, curve, cut, node)) {
     list_contacts(outer, curve, cut, node);
     if (!node.all.empty()) return node;
@@ -242,14 +242,19 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
 // coincide, another edge's line is not certainly missed, or a corner is not that of a
 // convex solid that stands alone.
 bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
-                               const CurveCut& cut, const FoundNode& node) {
+                               const CurveCut& cut) {
   const auto coincides = [&](const CurveCut& other) {
     return other.hi >= cut.lo && other.lo <= cut.hi && !other.same_as(cut) &&
            curve.compare(other, cut) == Sign::Zero;
   };
   if (cut.kind == CurveCutKind::Given) return true;
   // Where edges of touching solids cross, a line meets both at one point.
-  if (node.elsewhere || meets_foreign_face(outer, curve, middle, cut)) return true;
+  for (const int ridge :
+       {outer.first, middle, outer.last,
+        cut.kind == CurveCutKind::Crossing ? carriers_.ridge[cut.feature] : -1}) {
+    if (ridge >= 0 && g_.ridges()[ridge].touched_along()) return true;
+  }
+  if (ends_at_pierced(outer, curve, middle, cut)) return true;
   for (const Constraint& c : constraints_) {
     if (c.values.constant() && c.values.sign0 == Sign::Zero) return true;
     if (cut.kind == CurveCutKind::Start ? c.zero0
@@ -315,33 +320,6 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
   return false;
 }
 
-// Whether at a cut one of the contacts can lie on a face that touches its edge.
-bool EdgePairs::meets_foreign_face(const Outer& outer, const EeeCurve& curve, int middle,
-                                   const CurveCut& cut) const {
-  const auto& o = outer.points;
-  const auto meets = [&](const Ridge& ridge, bool last) {
-    if (!ridge.touched) return false;
-    return ridge.pierced_by.empty() || std::ranges::any_of(ridge.pierced_by, [&](int face) {
-      const auto& edge = last ? o.q : o.p;
-      const PlaneValues v = plane_values(g_.face_plane(face), o.at(edge[0]), o.at(edge[1]));
-      const auto points = plane_points(scene_, face);
-      const BoundedLinear l =
-          last ? curve.at_last_edge(v.at0, v.at1, points)
-               : BoundedLinear{v.at0.value, v.at1.value, v.at0.error,
-                               v.at1.error, v.sign0,     v.sign1};
-      if (l.sign0 != -l.sign1 || l.sign0 == Sign::Zero) return true;
-      CurveCut at{last ? CurveCutKind::OnFar : CurveCutKind::OnPlane, false,
-                  scene_.faces()[face].facet, points, 0, 1};
-      enclose_root(l, at);
-      return curve.compare(at, cut) == Sign::Zero;
-    });
-  };
-  // A line through the inside of a face at the middle edge is blocked, but for those in
-  // the face's plane.
-  return meets(g_.ridges()[outer.first], false) || meets(g_.ridges()[outer.last], true) ||
-         meets(g_.ridges()[middle], false);
-}
-
 // The same beyond the outer edges.
 bool EdgePairs::may_touch_beyond(const Outer& outer, const EeeCurve& curve,
                                  const CurveCut& cut, const FoundNode& node) {
@@ -386,14 +364,11 @@ bool EdgePairs::rises_at(std::span<const Generator> edges,
 }
 
 void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
-                              const CurveCut& cut, FoundNode& node) const {
+                              const CurveCut& cut, FoundNode& node) {
   NodeContacts all;
   const auto points = curve.points_at(cut);
   if (points) {
-    const auto& [a, b] = *points;
-    const LineScan scan(scene_, faces_near_line(g_, rounded(a), rounded(b)), a, b);
-    const NodeContacts between = contacts_between(g_, scan);
-    all = contacts_along(g_, scan, *points, between.end, node.grazes);
+    all = contacts_of_line(g_, probe_, known_, *points, {.grazes = node.grazes}).along;
   } else if (const auto line = curve.line_at(cut)) {
     const auto edge = [&](int ridge) { return g_.ridges()[ridge].edge; };
     all = contacts_along(g_, *line, {edge(outer.first), edge(outer.last)}, node.grazes);

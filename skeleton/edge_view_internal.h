@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "skeleton/blocker_list_internal.h"
@@ -62,6 +63,9 @@ class EdgeView {
   /// an occluder of a hidden part all.  False when all are hidden.
   [[nodiscard]] bool look(Pieces open, const Point& q0, const Point& q1,
                           std::vector<Part>& parts, std::vector<std::int32_t>& faces);
+  /// All that was between the edge, but for hidden parts of it, and the other one
+  /// (Generators::blockers); some more than once.
+  [[nodiscard]] std::span<const std::int32_t> blockers() const { return blockers_; }
   /// All faces, by boxes, of what was between the edge and the other one, ascending.
   [[nodiscard]] std::vector<int> all_faces() const;
   /// The occluder of this face hid an edge of the group from a part.

@@ -114,12 +114,12 @@ Generators::Generators(const Scene& scene, EventMode events, const Request& requ
   find_rooms();
   find_blockers();
   find_outlines();
-  stage.begin("edges' faces");
-  find_ridges(request, stage);
   stage.begin("corners' faces");
   find_stars(request, stage);
   stage.begin("corners in solids");
   find_inside(request, stage);
+  stage.begin("edges' faces");
+  find_ridges(request, stage);
 }
 
 void Generators::find_convex_solids() {

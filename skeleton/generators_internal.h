@@ -14,6 +14,7 @@
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
 #include "linespace/stage_internal.h"
+#include "skeleton/buried_stretches_internal.h"
 #include "skeleton/ridge_groups_internal.h"
 #include "skeleton/ridge_sides_internal.h"
 #include "skeleton/skeleton.h"
@@ -58,10 +59,14 @@ struct Ridge {
   /// Polygon mode, `touched`: what is seen differs along the edge and is asked line by
   /// line (drawn_internal.h).
   bool any_side = false;
-  /// Solid mode, `touched`: the foreign faces, where each meets the open edge in one
-  /// point and the lines to all other points need no general test.  Else empty.
+  /// `touched`: the foreign faces, where each meets the open edge in one point, inside
+  /// its facet, and the lines to all other points need no general test.  Else empty.
   std::vector<std::int32_t> pierced_by = {};
+  /// Then: where the edge is in the material of solids.
+  std::vector<BuriedStretch> buried = {};
 
+  /// Lines to any of its points may need the general contact test.
+  [[nodiscard]] bool touched_along() const { return touched && pierced_by.empty(); }
   /// Polygon mode: lines can end here.
   [[nodiscard]] bool can_end() const { return ends_in_front || ends_behind; }
   /// Lines graze here, and not only end.
@@ -208,6 +213,11 @@ class Generators {
                                        Sign wanted) const;
   [[nodiscard]] bool fronts_face_gap(const Edge& e, const EdgeFaces& at) const;
   void find_touching(const Edge& e, EdgeFaces& at) const;
+  [[nodiscard]] std::vector<BuriedStretch> buried_stretches(
+      std::array<std::int32_t, 2> points, std::span<const std::int32_t> pierced_by) const;
+  [[nodiscard]] bool inside_material(int point) const {
+    return star_of_point_[point] >= 0 && inside_[star_of_point_[point]] != 0;
+  }
   void add_edge(int edge, const EdgeFaces& at, std::vector<Box>& boxes);
   void add_ridge(int edge, const EdgeFaces& at, std::vector<Box>& boxes);
   void add_gaps(int edge, const EdgeFaces& at, std::vector<Box>& boxes);

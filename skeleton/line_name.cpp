@@ -22,28 +22,44 @@ void append(LineName& name, const Integer& x) {
   mpz_export(name.data() + start, nullptr, 1, 1, 0, 0, value);
 }
 
+struct Whole {
+  std::array<Integer, 3> point;
+  Integer denominator;
+};
+Whole over_one_denominator(const ExactPoint& p) {
+  Whole out;
+  out.denominator = 1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out.denominator = lcm(out.denominator, static_cast<Integer>(denominator(p[i])));
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Integer part = out.denominator / static_cast<Integer>(denominator(p[i]));
+    out.point[i] = static_cast<Integer>(numerator(p[i])) * part;
+  }
+  return out;
+}
+
 }  // namespace
 
+// With points A / alpha and B / beta the direction is w = alpha B - beta A and the moment
+// A x w / alpha, up to one factor: all times alpha they are integers.
 LineName name_of_line(const std::array<ExactPoint, 2>& line) {
-  const ExactPoint way = exact_difference(line[1], line[0]);
-  const ExactPoint moment = exact_cross(line[0], way);
-  std::array<Rational, 6> exact;
-  for (std::size_t i = 0; i < 3; ++i) {
-    exact[i] = way[i];
-    exact[i + 3] = moment[i];
-  }
-  Integer multiple = 1;
-  for (const Rational& x : exact) {
-    multiple = lcm(multiple, static_cast<Integer>(denominator(x)));
-  }
+  const auto [a, alpha] = over_one_denominator(line[0]);
+  const auto [b, beta] = over_one_denominator(line[1]);
+  std::array<Integer, 3> w;
+  for (std::size_t i = 0; i < 3; ++i) w[i] = alpha * b[i] - beta * a[i];
   std::array<Integer, 6> whole;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3;
+    const std::size_t k = (i + 2) % 3;
+    whole[i] = alpha * w[i];
+    whole[i + 3] = a[j] * w[k] - a[k] * w[j];
+  }
   Integer divisor = 0;
   bool negative = false;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Integer over = static_cast<Integer>(numerator(exact[i]));
-    whole[i] = over * (multiple / static_cast<Integer>(denominator(exact[i])));
-    if (divisor == 0) negative = whole[i] < 0;
-    divisor = gcd(divisor, whole[i]);
+  for (const Integer& x : whole) {
+    if (divisor == 0) negative = x < 0;
+    divisor = gcd(divisor, x);
   }
   LineName name;
   for (const Integer& x : whole)

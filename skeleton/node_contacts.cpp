@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "linespace/stop_scope_internal.h"
+#include "skeleton/known_lines_internal.h"
+#include "skeleton/line_probe_internal.h"
 #include "skeleton/node_contacts_internal.h"
 
 namespace sightline::internal {
@@ -102,7 +104,9 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
 // meets beyond the segment's ends does not count, what it meets at them does: the part
 // judged ends between there and the next instant outside.
 bool blocks_segment(const LineScan& scan, int contact) {
-  if (scan.from(contact) >= 0 && scan.to(contact) <= 1) return scan.blocked(contact);
+  // A line past all of the contact passes a part of it.
+  if (!scan.blocked(contact)) return false;
+  if (scan.from(contact) >= 0 && scan.to(contact) <= 1) return true;
   Rational low = -1;
   Rational high = 2;
   for (const Rational& t : scan.instants(contact)) {
@@ -210,6 +214,19 @@ int last_contact(const LineScan& scan, int contact, int step) {
   return contact;
 }
 
+// Of the line from the first to the last contact of a maximal free segment: without the
+// one at an end where it is blocked.
+std::optional<std::array<Rational, 2>> free_part(const LineScan& scan, int first,
+                                                 int last) {
+  if (scan.blocked(first)) ++first;
+  if (last >= first && scan.blocked(last)) --last;
+  if (first > last) return std::nullopt;
+  for (int c = first; c <= last; ++c) {
+    if (scan.blocked(c)) return std::nullopt;
+  }
+  return std::array<Rational, 2>{scan.from(first), scan.to(last)};
+}
+
 // The kind that exactly these contacts make, in the order of the line or reversed.
 std::optional<NodeKind> kind_of(std::vector<std::vector<Generator>> groups) {
   std::erase_if(groups, [](const auto& x) { return x.empty(); });
@@ -291,9 +308,11 @@ std::vector<std::int32_t> crossed_facets(const Generators& g, const LineScan& sc
 
 // Lines of an EV or EEE arc, without further contacts: the last of them is where one of
 // its outer edges enters a face (Pierce), or two edges at its corner line up (Saddle).
-// `crossed`: of the contacts.  The corner of an EV arc is listed first, then the face.
-void name_end_of_arc(const std::vector<std::vector<Generator>>& groups,
-                     const std::vector<std::vector<std::int32_t>>& crossed,
+// `contacts`: those that the groups are of.  The corner of an EV arc is listed first,
+// then the face.
+void name_end_of_arc(const Generators& g, const LineScan& scan,
+                     std::span<const int> contacts,
+                     const std::vector<std::vector<Generator>>& groups,
                      NodeContacts& node) {
   if (node.kind != NodeKind::Degenerate || groups.size() < 2 || groups.size() > 3) return;
   std::vector<Generator> line;
@@ -310,9 +329,13 @@ void name_end_of_arc(const std::vector<std::vector<Generator>>& groups,
   if (!ev && !eee) return;
   std::size_t faces = 0;
   std::size_t at = 0;
+  std::int32_t face = -1;
   for (std::size_t i = 0; i < n; ++i) {
-    faces += crossed[i].size();
-    if (!crossed[i].empty()) at = i;
+    const std::vector<std::int32_t> crossed = crossed_facets(g, scan, contacts[i]);
+    faces += crossed.size();
+    if (crossed.empty()) continue;
+    at = i;
+    face = crossed[0];
   }
   if (faces > 1 || (faces == 0 && !ev)) return;
   if (faces == 1 && (!is(at, e) || (at > 0 && at + 1 < n))) return;
@@ -321,7 +344,7 @@ void name_end_of_arc(const std::vector<std::vector<Generator>>& groups,
   node.ends = {};
   if (faces == 1) {
     line.insert(line.begin() + (at == 0 ? 1 : static_cast<std::ptrdiff_t>(at)),
-                {GeneratorKind::Face, crossed[at][0]});
+                {GeneratorKind::Face, face});
   }
   node.turned = ev ? is(0, e) : line.back() < line.front();
   if (node.turned) std::reverse(line.begin(), line.end());
@@ -349,6 +372,7 @@ NodeContacts node_along(const Generators& g,
     reversed.insert(reversed.end(), group->begin(), group->end());
   }
   node.turned = reversed < node.generators;
+  node.both_ways = reversed == node.generators;
   if (node.turned) node.generators = reversed;
   return node;
 }
@@ -462,29 +486,29 @@ std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
 
 NodeContacts contacts_between(const Generators& g, const LineScan& scan) {
   std::vector<std::vector<Generator>> groups;
-  std::vector<std::vector<std::int32_t>> crossed;
+  std::vector<int> contacts;
   bool free = true;
   for (int i = 0; i < scan.size(); ++i) {
     if (!meets_segment(scan, i)) continue;
     free = free && !blocks_segment(scan, i);
     groups.push_back(generators_of(g, scan, i));
-    crossed.push_back(crossed_facets(g, scan, i));
+    contacts.push_back(i);
   }
   NodeContacts node = node_of(g, groups);
   node.end = !free;
   if (!free && g.polygon()) node.ends = blocked_ends(g, scan).value_or(node.ends);
-  name_end_of_arc(groups, crossed, node);
+  name_end_of_arc(g, scan, contacts, groups, node);
   return node;
 }
 
 NodeContacts contacts_along(const Generators& g, const LineScan& scan,
-                            const std::array<ExactPoint, 2>& line, bool end,
-                            bool grazes) {
+                            const std::array<ExactPoint, 2>& line, bool end, bool grazes,
+                            const LineName* name) {
   int first = -1;
   int last = -1;
-  for (int c = 0; c < scan.size(); ++c) {
+  for (int c = 0; c < scan.size() && scan.from(c) <= 1; ++c) {
     if (scan.from(c) <= 0 && scan.to(c) >= 0) first = c;
-    if (scan.from(c) <= 1 && scan.to(c) >= 1) last = c;
+    if (scan.to(c) >= 1) last = c;
   }
   if (first < 0 || last < 0) return {};
   const bool polygon = g.polygon();
@@ -505,20 +529,25 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   if (!stops_at[0]) first = go_on(first, -1);
   if (!stops_at[1]) last = go_on(last, 1);
   std::vector<std::vector<Generator>> groups;
-  std::vector<std::vector<std::int32_t>> crossed;
   // What lies behind the foot of a wall, in the plane of another, is not reached.
   const Reach reach{line, stop_in(scan, first, -1), stop_in(scan, last, 1)};
+  std::vector<int> contacts;
   for (int c = first; c <= last; ++c) {
     groups.push_back(generators_of(g, scan, c, &reach));
-    crossed.push_back(crossed_facets(g, scan, c));
+    contacts.push_back(c);
   }
   NodeContacts node = node_along(g, groups);
-  name_end_of_arc(groups, crossed, node);
+  name_end_of_arc(g, scan, contacts, groups, node);
   node.segment = {rounded(along(line[0], line[1], scan.from(first))),
                   rounded(along(line[0], line[1], scan.to(last)))};
   if (node.turned) std::swap(node.segment[0], node.segment[1]);
+  node.reach = {scan.from(first).convert_to<double>(),
+                scan.to(last).convert_to<double>()};
   if (ends_one_arc(node.kind)) return node;
-  if (node.kind == NodeKind::Degenerate) node.line = name_of_line(line);
+  if (node.kind == NodeKind::Degenerate) {
+    node.line = name != nullptr ? *name : name_of_line(line);
+    if (!polygon && !node.both_ways) node.free_part = free_part(scan, first, last);
+  }
   // A line along a face that ends where the face does.
   const bool stops = reach.from || reach.to;
   node.end = end || (node.kind == NodeKind::FEE && stops);
@@ -528,6 +557,44 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
     node.end = node.end || ends[0] || ends[1];
   }
   return node;
+}
+
+LineContacts contacts_of_line(const Generators& g, LineProbe& probe, KnownLines& known,
+                              const std::array<ExactPoint, 2>& line,
+                              const LineQuestion& question) {
+  const bool may_be_known = !g.polygon() && !question.end.value_or(false);
+  if (may_be_known) {
+    if (const NodeContacts* before = known.find(line)) return {*before, {}, false};
+  }
+  const auto look_at = [&](std::span<const int> faces) {
+    const LineScan scan(g.scene(), faces, line[0], line[1]);
+    LineContacts found;
+    if (question.end) {
+      found.end = *question.end;
+    } else if (!is_free(scan)) {
+      found.between = contacts_between(g, scan);
+      found.end = found.between->end;
+    }
+    found.along = contacts_along(g, scan, line, found.end, question.grazes,
+                                 may_be_known ? &known.name() : nullptr);
+    if (question.between && !found.between && found.along.kind != NodeKind::Degenerate) {
+      found.between = contacts_between(g, scan);
+    }
+    return found;
+  };
+  const Point a = rounded(line[0]);
+  const Point b = rounded(line[1]);
+  // In polygon mode the contact beyond the last one counts too.
+  if (g.polygon()) return look_at(faces_near_line(g, a, b));
+  const NearFaces near = probe.faces_near(a, b);
+  LineContacts found = look_at(near.faces);
+  // A face that was left out has a part in none of these contacts.
+  const auto& [first, last] = found.along.reach;
+  if (found.along.generators.empty() || first <= near.from || last >= near.to) {
+    found = look_at(faces_near_line(g, a, b));
+  }
+  if (may_be_known && !found.end) known.keep(found.along);
+  return found;
 }
 
 }  // namespace sightline::internal

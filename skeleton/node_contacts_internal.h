@@ -59,6 +59,8 @@ struct NodeContacts {
   std::array<bool, 2> ends{};
   std::vector<Generator> generators;  ///< in order along the line
   bool turned = false;                ///< listed against the line's direction
+  /// Both directions of the line list the same: `segment` has that of the line.
+  bool both_ways = false;
   /// Of an irrational line: which of the two through the same edges.
   bool second = false;
   /// Of a rational line that is Degenerate, of contacts_along(): tells it from others
@@ -66,6 +68,14 @@ struct NodeContacts {
   LineName line;
   /// The outermost contacts, rounded, in the order of `generators`; of contacts_along().
   std::array<Point, 2> segment{Point::Zero(), Point::Zero()};
+  /// Where on the line, as the scan counts, the outermost contacts begin and end,
+  /// rounded; of contacts_along().
+  std::array<double, 2> reach{};
+  /// Solid mode, of contacts_along() of a Degenerate line: a part of the line, by
+  /// positions, all of whose contacts graze, so that other segments on it have the same
+  /// contacts along their maximal free segment; none where a contact in between blocks,
+  /// or `both_ways`.
+  std::optional<std::array<Rational, 2>> free_part;
 };
 
 /// The node that these contacts make, given in order along the line and listed from the
@@ -81,10 +91,34 @@ struct NodeContacts {
 /// by its points at 0 and 1; listed from the end with the smaller generators.  `end` says
 /// that the line may end at 0 or 1.  Polygon mode: `grazes` says that an arc of solid
 /// mode ends there, and then the contacts are those of solid mode; else those at which
-/// the free segment ends are among them, where they are corners or edges.
+/// the free segment ends are among them, where they are corners or edges.  `name`: of the
+/// line, where it is known.
 [[nodiscard]] NodeContacts contacts_along(const Generators& generators,
                                           const LineScan& scan,
                                           const std::array<ExactPoint, 2>& line, bool end,
-                                          bool grazes);
+                                          bool grazes, const LineName* name = nullptr);
+
+class KnownLines;
+class LineProbe;
+
+struct LineQuestion {
+  bool grazes = true;  ///< as for contacts_along()
+  /// Whether the line may end at 0 or 1; nullopt: as contacts_between() says.
+  std::optional<bool> end = {};
+  /// contacts_between() is wanted where `along` is not Degenerate.
+  bool between = false;
+};
+struct LineContacts {
+  NodeContacts along;
+  std::optional<NodeContacts> between;
+  bool end = false;  ///< as told, or as contacts_between() says
+};
+
+/// contacts_along() of the line through two points, unless it is known; faces are looked
+/// for as far as the line is free.
+[[nodiscard]] LineContacts contacts_of_line(const Generators& generators,
+                                            LineProbe& probe, KnownLines& known,
+                                            const std::array<ExactPoint, 2>& line,
+                                            const LineQuestion& question);
 
 }  // namespace sightline::internal

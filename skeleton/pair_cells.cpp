@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kU = kUnitRoundoff;
 // A cell is left whole after so many halvings, or when so few faces are left: speed only.
-constexpr int kDeepest = 12;
+constexpr int kDeepest = 8;
 constexpr std::size_t kFewFaces = 8;
 
 // Certain signs at some positions; `neutral`: where the value is zero exactly, at an end
@@ -136,7 +136,15 @@ int PairCells::divide(double s0, double s1, const std::function<bool(int)>& is_m
   list_.resize(faces_.size());
   for (std::size_t i = 0; i < list_.size(); ++i) list_[i] = static_cast<std::int32_t>(i);
   const int depth = -std::ilogb(s1 - s0);  // as if halved so often
-  return visit({s0, s1, 0, 1}, depth, 0, list_.size());
+  const Cell cell = visible({s0, s1, 0, 1});
+  if (!(cell.s0 < cell.s1 && cell.t0 < cell.t1)) return -1;
+  return visit(cell, depth, 0, list_.size());
+}
+
+// The part of the cell in which lines may be free.
+PairCells::Cell PairCells::visible(const Cell& cell) const {
+  return {std::max(cell.s0, first_.visible[0]), std::min(cell.s1, first_.visible[1]),
+          std::max(cell.t0, last_.visible[0]), std::min(cell.t1, last_.visible[1])};
 }
 
 void PairCells::hide(double s0, double s1, std::int64_t occluder) {

@@ -37,11 +37,13 @@ class PairCells {
   };
 
   /// An outer edge: the values of its wedge's planes a and b along the other edge,
-  /// whether lines touch it from behind both and from in front of both, its length.
+  /// whether lines touch it from behind both and from in front of both, its length, and
+  /// the range of parameters outside of which no line is free.
   struct Edge {
     std::array<Linear, 2> planes;
     std::array<bool, 2> touched_on;
     double length;
+    std::array<double, 2> visible{0, 1};
   };
 
   /// Begins a pair.
@@ -92,6 +94,7 @@ class PairCells {
     unsigned inside = 0;  ///< and surely pass its inside
   };
 
+  [[nodiscard]] Cell visible(const Cell& cell) const;
   int visit(const Cell& cell, int depth, std::size_t begin, std::size_t end);
   [[nodiscard]] std::optional<Corners> passage(const Face& face, const Cell& cell);
   void add_leaf(const Cell& cell, std::size_t begin, int occluder);

@@ -13,7 +13,7 @@ namespace sightline::internal {
 namespace {
 
 // How a face of another object, or of the same one elsewhere, meets the open edge.
-// Pierced: in one point that it lies across.
+// Pierced: in one point inside the face's facet, which it lies across.
 enum class EdgeTouch : std::uint8_t { None, Pierced, Touches, ContainsInside };
 
 // Where face f, which is not one of the edge's own, meets the open segment e0 e1.
@@ -27,15 +27,19 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
     if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) return EdgeTouch::None;
     // Crosses the plane inside: within the closed polygon unless it passes some side on
     // the outside.
+    bool at_edge = false;
     for (std::size_t k = 0; k < n; ++k) {
       const Sign s =
           orient3d(scene.point(corners[k]), scene.point(corners[(k + 1) % n]), e0, e1);
-      if (s == Sign::Zero) continue;
+      if (s == Sign::Zero) {
+        at_edge |= scene.edge_of_side(f, static_cast<int>(k)) >= 0;
+        continue;
+      }
       // Seen from the front a line going to the back passes inside on the left.
       const Sign inside = s0 == Sign::Positive ? Sign::Negative : Sign::Positive;
       if (s != inside) return EdgeTouch::None;
     }
-    return EdgeTouch::Pierced;
+    return at_edge ? EdgeTouch::Touches : EdgeTouch::Pierced;
   }
   // Coplanar: clip combinatorially.  Outside some side as a whole: no touch.
   const InPlaneSide left_of(scene, f);
@@ -139,6 +143,7 @@ struct Generators::EdgeFaces {
   bool reflex = false;                      // of a closed object: that gap is inside
   bool touched = false, foot = false;
   std::vector<std::int32_t> pierced_by = {};  // as of Ridge
+  std::vector<BuriedStretch> buried = {};     // as of Ridge
   bool many = false;                          // polygon mode: more than two half-planes
   bool is_ridge = false;  // of its own, or a part of the one before it
   [[nodiscard]] bool has_gap() const { return a >= 0 && b >= 0; }
@@ -313,8 +318,11 @@ void Generators::find_touching(const Edge& e, EdgeFaces& at) const {
               });
             });
   at.touched = touched == EdgeTouch::Pierced || touched == EdgeTouch::Touches || at.foot;
-  if (polygon() || touched != EdgeTouch::Pierced) at.pierced_by.clear();
-  at.is_ridge = !inside_faces || at.foot;
+  if (touched != EdgeTouch::Pierced) at.pierced_by.clear();
+  at.buried = buried_stretches(e.points, at.pierced_by);
+  const bool all_buried = touched == EdgeTouch::None &&
+                          (inside_material(e.points[0]) || inside_material(e.points[1]));
+  at.is_ridge = (!inside_faces || at.foot) && !all_buried;
 }
 
 // To the ridge of an edge with the same ends, found before.
@@ -324,6 +332,7 @@ bool Generators::join_ridge(int edge, const EdgeFaces& at) {
   Ridge& ridge = ridges_.back();
   ridge.touched = true;
   ridge.pierced_by.clear();
+  ridge.buried.clear();
   ridge.objects.push_back(e.object);
   ridge_of_edge_[edge] = static_cast<int>(ridges_.size() - 1);
   if (!polygon()) return true;
@@ -382,6 +391,7 @@ void Generators::add_ridge(int edge, const EdgeFaces& at, std::vector<Box>& boxe
                      facets_along(s, edge),
                      at.touched});
   ridges_.back().pierced_by = at.pierced_by;
+  ridges_.back().buried = at.buried;
   boxes.push_back(box_of(std::array<Point, 2>{e0, e1}));
   if (!polygon()) return;
   Ridge& ridge = ridges_.back();

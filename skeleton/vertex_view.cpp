@@ -157,7 +157,7 @@ StarContact star_contact(const Scene& scene, const Star& star, const Point& x) {
 
 VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
                            const SkeletonLines* lines, double feature_size,
-                           Surroundings& around)
+                           Surroundings& around, KnownLines& known)
     : g_(generators),
       scene_(generators.scene()),
       part_(part),
@@ -166,6 +166,7 @@ VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
       occluders_(generators),
       probe_(generators),
       around_(around),
+      known_(known),
       lists_(std::make_unique<PairLists>()),
       point_sides_(scene_.points().size()) {}
 
@@ -252,7 +253,7 @@ VertexView VertexViewer::finish() {
   if (part_.by_lines) drop_arcs_off_source(out);
   add_line_ups(out);
   out.find_grazes();
-  find_further_contacts(g_, *star_, probe_, out);
+  find_further_contacts(g_, *star_, probe_, known_, out);
   out.line_ups = {};
   out.special = {};
   out.special_arcs = {};
@@ -331,7 +332,8 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
     pair.lists.edge_facets.push_back(scene_.faces()[side.face].facet);
   }
   pair.mild = a == Sign::Zero || b == Sign::Zero;
-  pair.degenerate = (r.touched && r.pierced_by.empty()) || star_->in_plane_only;
+  pair.degenerate =
+      r.touched_along() || (r.touched && g_.polygon()) || star_->in_plane_only;
   pair.edge_ends = contact == EdgeContact::End;
   pair.share_facet = g_.polygon() && share(r.all_facets, star_->facets);
   // Those that end there are left out.
@@ -374,7 +376,7 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
       const bool simple =
           !is_pierced_at(pair, cut) || (star_->convex && cut.kind == CutKind::Pierce);
       if (!mild && simple) return end_node(pair, cut, arc.ends, out);
-      list_faces(pair);
+      if (g_.polygon()) list_faces(pair);
       return contact_node(g_, *star_, r, pair.lists.faces, cut, arc.ends, out);
     };
     if (pair.share_facet && arc.ends[0]) continue;

@@ -22,6 +22,8 @@
 
 namespace sightline::internal {
 
+class KnownLines;
+
 /// Arcs of one vertex; node numbers and generator positions are local to the view.
 struct VertexView {
   std::vector<SkeletonArc> arcs;
@@ -30,8 +32,10 @@ struct VertexView {
   std::vector<CutInterval> intervals;       ///< exact ranges of `arcs`, while it is built
   std::deque<Rational> positions;           ///< of cuts that keep a pointer
   std::vector<Simplified::Arc> short_arcs;  ///< left out
-  /// Of the nodes: found among zero signs, so that its contacts are listed.
+  /// Of the nodes: found among zero signs, so that its contacts are listed; or not named
+  /// until then.
   std::vector<std::uint8_t> special;
+  static constexpr std::uint8_t kUnnamed = 2;
   /// Of the arcs, while it is built: found among zero signs.
   std::vector<std::uint8_t> special_arcs;
   /// Of the nodes: as of NodeContacts.
@@ -71,9 +75,11 @@ class VertexViewer {
  public:
   /// Keeps references; `lines` may be null unless part.by_lines.  Arcs on a stretch of
   /// their edge shorter than `feature_size` are left out, and listed.  `around` is kept
-  /// by whoever asks for views: of corners that include the viewpoint, and at the group.
+  /// by whoever asks for views: of corners that include the viewpoint, and at the group;
+  /// so is `known`.
   VertexViewer(const Generators& generators, const EvPart& part,
-               const SkeletonLines* lines, double feature_size, Surroundings& around);
+               const SkeletonLines* lines, double feature_size, Surroundings& around,
+               KnownLines& known);
 
   ~VertexViewer();
 
@@ -141,6 +147,7 @@ class VertexViewer {
   std::vector<BoundedPlane> star_planes_;
   LineProbe probe_;
   Surroundings& around_;
+  KnownLines& known_;
   std::unique_ptr<PairLists> lists_;
   // By point, while the pair's number is that of the pair at hand: its side of the plane.
   struct PointSide {

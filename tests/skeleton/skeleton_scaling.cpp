@@ -7,8 +7,10 @@
 //   skeleton_scaling polytopes|city LARGEST [double]
 //     one scene each of 500, 750, ... polygons up to LARGEST: seconds, bytes, arcs.
 //   skeleton_scaling streets LARGEST [ev] [polygon]
-//     five cities side by side, of 1,000, 1,585, ... polygons up to LARGEST: wall and
-//     processor time, arcs, the share of signs that took exact numbers.
+//     six cities side by side, of 1,000, 1,585, ... polygons up to LARGEST: wall and
+//     processor time, arcs, the share of signs that took exact numbers; the exponents
+//     with which arcs and processor time grew since the size before; processor time an
+//     arc over that of the random city.
 //   skeleton_scaling CITY POLYGONS [ev] [polygon]
 //     one of these, with a hash of the whole answer: CITY is random, street, square, sunk
 //     or floating (both street cities), square-sunk or touching (a grid city).
@@ -230,19 +232,32 @@ constexpr const char* kCityHeader =
     "city,polygons,ev_arcs,eee_arcs,seconds,processor_seconds,exact_percent,"
     "processor_microseconds_an_arc";
 
+// Of y in x, between the last two.
+double last_exponent(const std::vector<double>& x, const std::vector<double>& y) {
+  const std::size_t n = x.size();
+  return std::log(y[n - 1] / y[n - 2]) / std::log(x[n - 1] / x[n - 2]);
+}
+
 void streets(int largest, const SkeletonRequest& request) {
-  std::printf("%s\n", kCityHeader);
+  std::printf("%s,arcs_exponent,processor_exponent,times_random\n", kCityHeader);
   std::array<std::vector<double>, kSideBySide> polygons, seconds, arcs;
   for (double wanted = 1000; wanted <= 1.001 * largest; wanted *= 1.58489) {  // 10^(1/5)
     for (std::size_t i = 0; i < kSideBySide; ++i) {
       const Row row =
           measure(city_of(kCities[i], static_cast<int>(std::lround(wanted))), request);
-      print_city(kCities[i], row);
-      std::printf("\n");
-      std::fflush(stdout);
       polygons[i].push_back(row.polygons);
       seconds[i].push_back(row.processor_seconds);
       arcs[i].push_back(row.arcs);
+      print_city(kCities[i], row);
+      const double times =
+          (seconds[i].back() / arcs[i].back()) / (seconds[0].back() / arcs[0].back());
+      if (polygons[i].size() == 1) {
+        std::printf(",,,%.2f\n", times);
+      } else {
+        std::printf(",%.2f,%.2f,%.2f\n", last_exponent(polygons[i], arcs[i]),
+                    last_exponent(polygons[i], seconds[i]), times);
+      }
+      std::fflush(stdout);
     }
   }
   if (polygons[0].size() < 3) return;

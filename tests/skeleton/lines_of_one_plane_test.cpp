@@ -1,0 +1,125 @@
+// EEE arcs whose lines lie in one plane, and edges that run through solids, on scenes
+// whose answers are known by hand.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "linespace/scene.h"
+#include "skeleton/skeleton.h"
+#include "tests/support/generators.h"
+
+namespace sightline {
+namespace {
+
+void add_box(PolygonSoup& soup, const char* name, const Point& low, const Point& high) {
+  const int v = static_cast<int>(soup.vertices.size());
+  const int f = static_cast<int>(soup.polygons.size());
+  for (int i = 0; i < 8; ++i) {
+    soup.vertices.emplace_back((i & 1) ? high[0] : low[0], (i & 2) ? high[1] : low[1],
+                               (i & 4) ? high[2] : low[2]);
+  }
+  for (const auto& face : {std::array{0, 4, 6, 2},
+                           {1, 3, 7, 5},
+                           {0, 1, 5, 4},
+                           {2, 6, 7, 3},
+                           {0, 2, 3, 1},
+                           {4, 5, 7, 6}}) {
+    soup.polygons.push_back({v + face[0], v + face[1], v + face[2], v + face[3]});
+  }
+  soup.groups.push_back({name, {f, f + 1, f + 2, f + 3, f + 4, f + 5}});
+}
+
+// The edge between two points.
+int edge_between(const Scene& scene, const Point& p, const Point& q) {
+  const auto edges = scene.edges();
+  const auto found = std::find_if(edges.begin(), edges.end(), [&](const Edge& e) {
+    const Point& e0 = scene.point(e.points[0]);
+    const Point& e1 = scene.point(e.points[1]);
+    return (e0 == p && e1 == q) || (e0 == q && e1 == p);
+  });
+  return found == edges.end() ? -1 : static_cast<int>(found - edges.begin());
+}
+
+int arcs_with(const Skeleton& skeleton, int a, int b) {
+  return static_cast<int>(std::count_if(
+      skeleton.eee_arcs.begin(), skeleton.eee_arcs.end(), [&](const EeeArc& arc) {
+        const auto has = [&](int e) {
+          return std::find(arc.edges.begin(), arc.edges.end(), e) != arc.edges.end();
+        };
+        return has(a) && has(b);
+      }));
+}
+
+// All lines of the curve are one: along the edge of `near`, over the edges of `roof`,
+// past the wall of `front`, then in the wall of `back`, against which `pressed` leans.
+// The lines lie in the plane of the roofs, and in that of the walls.
+TEST(LinesOfOnePlane, AreNotFreeBetweenWallsThatTouchInAnotherOne) {
+  PolygonSoup soup;
+  add_box(soup, "near", {14, 12, 0}, {16, 13, 3});
+  add_box(soup, "roof", {13, 15, 0}, {16, 16, 3});
+  add_box(soup, "front", {14, 20, 0}, {16, 21, 4});
+  add_box(soup, "back", {11, 22, 0}, {14, 25, 4});
+  add_box(soup, "pressed", {14, 23, 0}, {16, 24, 4});
+  const Scene scene(soup);
+  const Skeleton skeleton = build_skeleton(scene, {});
+  const int near = edge_between(scene, {14, 12, 3}, {14, 13, 3});
+  const int before = edge_between(scene, {14, 22, 0}, {14, 22, 4});
+  const int behind = edge_between(scene, {14, 25, 0}, {14, 25, 4});
+  ASSERT_TRUE(near >= 0 && before >= 0 && behind >= 0);
+  EXPECT_EQ(arcs_with(skeleton, near, behind), 0);
+  EXPECT_GT(arcs_with(skeleton, near, before), 0);
+}
+
+// Lines in the plane x = 14 from an edge of `near` past one of `next` to an edge of `bar`
+// that crosses the plane.  Between them a wall leans on the plane from one side, or two
+// from both.
+TEST(LinesOfOnePlane, AreHiddenBetweenSolidsThatTouchInThePlane) {
+  for (const bool both : {false, true}) {
+    PolygonSoup soup;
+    add_box(soup, "near", {14, 0, 0}, {16, 1, 3});
+    add_box(soup, "next", {14, 5, 0}, {16, 6, 2});
+    add_box(soup, "front", {14, 10, -1}, {16, 12, 4});
+    if (both) add_box(soup, "back", {12, 10, -1}, {14, 12, 4});
+    add_box(soup, "bar", {10, 20, 1}, {18, 21, 2});
+    const Scene scene(soup);
+    const Skeleton skeleton = build_skeleton(scene, {});
+    const int near = edge_between(scene, {14, 1, 0}, {14, 1, 3});
+    const int bar = edge_between(scene, {10, 20, 1}, {18, 20, 1});
+    ASSERT_TRUE(near >= 0 && bar >= 0);
+    EXPECT_EQ(arcs_with(skeleton, near, bar) > 0, !both);
+  }
+}
+
+// A box in which the lower half of a swarm of polytopes is buried.
+TEST(BuriedStretches, HaveNoArcs) {
+  for (const std::uint64_t seed : {1, 2}) {
+    PolygonSoup soup = testing::random_polytopes(seed, 24, {.density = 0.1});
+    const std::array<Point, 2> bounds = Scene(soup).bounds();
+    const double ground = 0.5 * (bounds[0][2] + bounds[1][2]);
+    const Point low = bounds[0] - Point::Ones();
+    const Point high(bounds[1][0] + 1, bounds[1][1] + 1, ground);
+    add_box(soup, "ground", low, high);
+    for (const EventMode events : {EventMode::Solid, EventMode::Polygon}) {
+      SkeletonRequest request;
+      request.events = events;
+      const Scene scene(soup);
+      const std::vector<EeeArc> arcs = build_skeleton(scene, request).eee_arcs;
+      EXPECT_GT(arcs.size(), 50u);
+      const auto buried = [&](const EeeArc& arc) {
+        const auto& ends = scene.edges()[arc.edges[0]].points;
+        const double z0 = scene.point(ends[0])[2];
+        const double z1 = scene.point(ends[1])[2];
+        const double z = z0 + 0.5 * (arc.range[0] + arc.range[1]) * (z1 - z0);
+        return low[2] < z && z < ground;
+      };
+      EXPECT_EQ(std::count_if(arcs.begin(), arcs.end(), buried), 0) << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace sightline
