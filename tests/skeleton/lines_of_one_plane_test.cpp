@@ -94,6 +94,30 @@ TEST(LinesOfOnePlane, AreHiddenBetweenSolidsThatTouchInThePlane) {
   }
 }
 
+// Two rows of boxes in one line, a wall between the rows: each line along a row is one
+// node on either side of the wall.
+TEST(KnownLines, AreToldPartByPart) {
+  PolygonSoup soup;
+  for (const double x : {0.0, 4.0, 8.0, 16.0, 20.0, 24.0}) {
+    add_box(soup, "box", {x, 0, 0}, {x + 1, 1, 1});
+  }
+  add_box(soup, "wall", {12, -30, -30}, {13, 30, 30});
+  const Scene scene(soup);
+  const Skeleton skeleton = build_skeleton(scene, {});
+  int in_line = 0;
+  for (const SkeletonNode& node : skeleton.nodes) {
+    int before = 0;
+    int behind = 0;
+    for (const Generator& x : skeleton.generators(node)) {
+      if (x.kind != GeneratorKind::Vertex) continue;
+      (scene.point(x.id)[0] < 12 ? before : behind) += 1;
+    }
+    in_line += before >= 6 || behind >= 6 ? 1 : 0;
+    EXPECT_TRUE(before == 0 || behind == 0 || node.kind != NodeKind::Degenerate);
+  }
+  EXPECT_EQ(in_line, 8);
+}
+
 // A box in which the lower half of a swarm of polytopes is buried.
 TEST(BuriedStretches, HaveNoArcs) {
   for (const std::uint64_t seed : {1, 2}) {
