@@ -232,7 +232,8 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
   if (cut.kind == CurveCutKind::Far) std::swap(node.segment[0], node.segment[1]);
   for (int a = 0; a < node.count; ++a) {
     for (int b = a + 1; b < node.count; ++b) {
-      node.self |= share(g_.objects_of(node.generators[a]), g_.objects_of(node.generators[b]));
+      node.self |=
+          share(g_.objects_of(node.generators[a]), g_.objects_of(node.generators[b]));
     }
   }
   return node;

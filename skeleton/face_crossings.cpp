@@ -86,20 +86,19 @@ FaceCrossings::FaceCrossings(const Generators& g) : tree_(std::vector<Box>{}) {
   const int n = static_cast<int>(g.scene().faces().size());
   for (int f = 0; f < n; ++f) {
     hear_stop();
-    g.face_tree().traverse(
-        [&](const Box& box) { return boxes_meet(box, g.face_box(f)); },
-        [&](std::uint32_t item) {
-          const int h = static_cast<int>(item);
-          if (h <= f || !may_cross(g, f, h)) return;
-          const auto a = cut_by_plane(g, f, h);
-          const auto b = a ? cut_by_plane(g, h, f) : std::nullopt;
-          if (!b) return;
-          if (auto s = common_part(*a, *b)) crossings_.push_back({f, h, std::move(*s)});
-        });
+    g.face_tree().traverse([&](const Box& box) { return boxes_meet(box, g.face_box(f)); },
+                           [&](std::uint32_t item) {
+                             const int h = static_cast<int>(item);
+                             if (h <= f || !may_cross(g, f, h)) return;
+                             const auto a = cut_by_plane(g, f, h);
+                             const auto b = a ? cut_by_plane(g, h, f) : std::nullopt;
+                             if (!b) return;
+                             if (auto s = common_part(*a, *b))
+                               crossings_.push_back({f, h, std::move(*s)});
+                           });
   }
-  std::ranges::sort(crossings_, {}, [](const FaceCrossing& c) {
-    return std::pair(c.f, c.h);
-  });
+  std::ranges::sort(crossings_, {},
+                    [](const FaceCrossing& c) { return std::pair(c.f, c.h); });
   std::vector<Box> boxes;
   for (const FaceCrossing& c : crossings_) boxes.push_back(box_around(c.segment));
   tree_ = Bvh(boxes);

@@ -573,7 +573,8 @@ class EeeFamily {
 
   // The parameters of the lines that meet a segment in which faces cross; where all lines
   // lie in a plane with it, those of the lines to its ends.
-  void add_stops(const std::array<ExactPoint, 2>& segment, std::vector<double>& out) const {
+  void add_stops(const std::array<ExactPoint, 2>& segment,
+                 std::vector<double>& out) const {
     if (add_meeting(segment, out)) return;
     for (const ExactPoint& end : segment) {
       for (std::size_t i = 0; i < 3; ++i) {
@@ -610,8 +611,8 @@ class EeeFamily {
     const double root = std::sqrt((d / (size * size)).convert_to<double>());
     const double middle = (b / size).convert_to<double>();
     const double q = -0.5 * (middle + std::copysign(root, middle));
-    for (const double s : {q / (a / size).convert_to<double>(),
-                           (h.h0 / size).convert_to<double>() / q}) {
+    for (const double s :
+         {q / (a / size).convert_to<double>(), (h.h0 / size).convert_to<double>() / q}) {
       if (s > range_[0] && s < range_[1]) out.push_back(s);
     }
     return true;
@@ -807,15 +808,14 @@ void FarPieces::add_crossing_stops(const Family& family, std::span<const int> fa
       box.max[i] = std::max(box.max[i], g_.face_box(f).max[i]);
     }
   }
-  crossings_.tree().traverse(
-      [&](const Box& other) { return boxes_meet(box, other); },
-      [&](std::uint32_t item) {
-        const FaceCrossing& c = crossings_.at(item);
-        if (std::ranges::binary_search(faces, c.f) &&
-            std::ranges::binary_search(faces, c.h)) {
-          family.add_stops(c.segment, out);
-        }
-      });
+  crossings_.tree().traverse([&](const Box& other) { return boxes_meet(box, other); },
+                             [&](std::uint32_t item) {
+                               const FaceCrossing& c = crossings_.at(item);
+                               if (std::ranges::binary_search(faces, c.f) &&
+                                   std::ranges::binary_search(faces, c.h)) {
+                                 family.add_stops(c.segment, out);
+                               }
+                             });
 }
 
 std::vector<double> FarPieces::stops(const EeeArc& arc) const {

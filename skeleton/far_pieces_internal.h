@@ -47,8 +47,8 @@ class FarPieces {
       : g_(generators), carriers_(carriers), crossings_(crossings) {}
 
   /// The pieces in order, neighbours different; nullopt where some sign is zero all along
-  /// or two faces are met in one point or cross each other, or where the faces at an end contact change along
-  /// the arc: then the contacts have to be asked.
+  /// or two faces are met in one point or cross each other, or where the faces at an end
+  /// contact change along the arc: then the contacts have to be asked.
   [[nodiscard]] std::optional<std::vector<FarPiece>> of(const SkeletonArc& arc) const;
   [[nodiscard]] std::optional<std::vector<FarPiece>> of(const EeeArc& arc) const;
 

@@ -215,6 +215,7 @@ class Generators {
   void find_touching(const Edge& e, EdgeFaces& at) const;
   [[nodiscard]] std::vector<BuriedStretch> buried_stretches(
       std::array<std::int32_t, 2> points, std::span<const std::int32_t> pierced_by) const;
+  [[nodiscard]] bool untouched_in_material(std::array<std::int32_t, 2> points) const;
   [[nodiscard]] bool inside_material(int point) const {
     return star_of_point_[point] >= 0 && inside_[star_of_point_[point]] != 0;
   }

@@ -37,8 +37,8 @@ namespace sightline::internal {
 
 /// Where two of three edges are coplanar, the lines that meet all are a pencil of their
 /// plane, through the point in which the third edge crosses it: the parameters on the
-/// first edge of the lines to corners in the plane and to crossings of sides.  Empty where
-/// no two are.  The first edge must be one of the two.
+/// first edge of the lines to corners in the plane and to crossings of sides.  Empty
+/// where no two are.  The first edge must be one of the two.
 [[nodiscard]] std::vector<Rational> pencil_stops(
     const Scene& scene, const std::array<std::array<std::int32_t, 2>, 3>& edges,
     std::span<const int> faces);

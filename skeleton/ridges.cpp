@@ -7,6 +7,7 @@
 #include "linespace/stop_scope_internal.h"
 #include "skeleton/drawn_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/node_contacts_internal.h"
 #include "skeleton/parallel_internal.h"
 
 namespace sightline::internal {
@@ -115,8 +116,8 @@ bool cover_edge(std::vector<std::array<Rational, 2>> stretches) {
   return reached >= 1;
 }
 
-// Of all faces at the edge and at those that coincide with it, which are its neighbours in
-// the scene's order; ridges or not.
+// Of all faces at the edge and at those that coincide with it, which are its neighbours
+// in the scene's order; ridges or not.
 std::vector<std::int32_t> facets_along(const Scene& scene, int edge) {
   const auto edges = scene.edges();
   const auto coincides = [&](int k) {
@@ -320,9 +321,21 @@ void Generators::find_touching(const Edge& e, EdgeFaces& at) const {
   at.touched = touched == EdgeTouch::Pierced || touched == EdgeTouch::Touches || at.foot;
   if (touched != EdgeTouch::Pierced) at.pierced_by.clear();
   at.buried = buried_stretches(e.points, at.pierced_by);
-  const bool all_buried = touched == EdgeTouch::None &&
-                          (inside_material(e.points[0]) || inside_material(e.points[1]));
+  const bool all_buried = touched == EdgeTouch::None && untouched_in_material(e.points);
   at.is_ridge = (!inside_faces || at.foot) && !all_buried;
+}
+
+// Whether an edge that faces of other objects touch at its ends at most is in material.
+bool Generators::untouched_in_material(std::array<std::int32_t, 2> points) const {
+  bool on_surfaces = true;  // both ends
+  for (const int p : points) {
+    if (inside_material(p)) return true;
+    const int star = star_of_point_[p];
+    on_surfaces = on_surfaces && star >= 0 && stars_[star].touched;
+  }
+  return on_surfaces &&
+         in_material(along(exact_point(scene_->point(points[0])),
+                           exact_point(scene_->point(points[1])), Rational(1, 2)));
 }
 
 // To the ridge of an edge with the same ends, found before.

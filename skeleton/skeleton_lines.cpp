@@ -300,24 +300,23 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) 
     return !left && !right;
   };
   std::vector<int> faces;
-  g.face_tree().traverse(
-      in_wedge,
-      [&](std::uint32_t item) {
-        const int f = static_cast<int>(item);
-        bool front = false;
-        bool back = false;
-        for (const int p : scene.face_points(f)) {
-          const Sign s = plane(scene.point(p));
-          front |= s != Sign::Negative;
-          back |= s != Sign::Positive;
-        }
-        if (front && back) faces.push_back(f);
-      });
+  g.face_tree().traverse(in_wedge, [&](std::uint32_t item) {
+    const int f = static_cast<int>(item);
+    bool front = false;
+    bool back = false;
+    for (const int p : scene.face_points(f)) {
+      const Sign s = plane(scene.point(p));
+      front |= s != Sign::Negative;
+      back |= s != Sign::Positive;
+    }
+    if (front && back) faces.push_back(f);
+  });
   std::sort(faces.begin(), faces.end());
   std::deque<Rational> positions;
   auto cuts = critical_cuts(g, g.stars()[g.star_of_point(arc.vertex)], e0, e1, plane,
                             faces, positions);
-  impl_->add_crossings(in_wedge, arc, internal::corner_off(scene, faces, plane), positions, cuts);
+  impl_->add_crossings(in_wedge, arc, internal::corner_off(scene, faces, plane),
+                       positions, cuts);
   // Rounded positions are within 8 units of the last place of 1 of the exact ones (see
   // make_cut): two that are closer than twice that may be one.
   constexpr double kSame = 16 * std::numeric_limits<double>::epsilon();

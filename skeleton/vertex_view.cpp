@@ -502,7 +502,8 @@ std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
                                      VertexView& out) const {
   const Generator vertex{GeneratorKind::Vertex, point_};
   const Generator edge{GeneratorKind::Edge, pair.r->edge};
-  const auto alone = [](std::span<const std::int32_t> a, std::span<const std::int32_t> b) {
+  const auto alone = [](std::span<const std::int32_t> a,
+                        std::span<const std::int32_t> b) {
     return a.size() == 1 && b.size() == 1 && a[0] == b[0];
   };
   const bool arc_self = alone(own_objects_, pair.r->objects);
@@ -528,8 +529,8 @@ std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
       const Generator side = g_.named(cut.feature);
       const Generator generators[] = {vertex, side, edge};
       const auto objects = g_.objects_of(side);
-      const bool self = arc_self || alone(own_objects_, objects) ||
-                        alone(objects, pair.r->objects);
+      const bool self =
+          arc_self || alone(own_objects_, objects) || alone(objects, pair.r->objects);
       return out.add_node(NodeKind::VEE, self, false, generators, {at_, hit}, ends);
     }
     case CutKind::Support: {

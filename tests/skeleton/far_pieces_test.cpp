@@ -121,7 +121,7 @@ TEST(FarPieces, HoldInDenseAndInAlignedScenes) {
 // What two faces that cross each other end changes where a line meets both.
 TEST(FarPieces, HoldWhereFacesOfSolidsCross) {
   Tally ev, eee;
-  for (std::uint64_t seed = 0; seed < 3; ++seed) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
     SCOPED_TRACE(seed);
     const PolygonSoup soup = testing::crowded_scene(testing::Crowd::Overlapping, seed);
     check_scene(Scene(soup), 1, 0, 200, 20, ev, eee);
