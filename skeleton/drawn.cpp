@@ -198,7 +198,6 @@ bool drawn_corner(const Generators& g, const Star& star, const Eye& eye) {
   };
   std::vector<int> drawn;
   for (int r = 0; r < n; ++r) {
-    if (star.along_edge[r] == 0) continue;
     if (std::any_of(star.sectors.begin(), star.sectors.end(),
                     [&](const Star::Sector& s) { return hides(s, r); })) {
       continue;
@@ -217,7 +216,8 @@ bool drawn_corner(const Generators& g, const Star& star, const Eye& eye) {
     }
     fan.close();
     if (fan.from_inside(eye)) return false;
-    if (fan.contact(eye) != EdgeContact::None) drawn.push_back(r);
+    if (star.along_edge[r] != 0 && fan.contact(eye) != EdgeContact::None)
+      drawn.push_back(r);
   }
   const bool straight = drawn.size() == 2 && collinear(v, at(drawn[0]), at(drawn[1]));
   return !drawn.empty() && !straight;
