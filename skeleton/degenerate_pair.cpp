@@ -348,7 +348,7 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     const bool named = view.special[id] != VertexView::kUnnamed;
     if (named) question.end = node.end;
     question.between = !named;
-    LineContacts found = contacts_of_line(g, probe, known, {start, x}, question);
+    LineContacts found = contacts_of_line(g, known, {start, x}, question);
     NodeContacts& all = found.along;
     if (!named) {
       const bool keep = all.generators.empty() || all.kind != NodeKind::Degenerate;

@@ -369,7 +369,7 @@ void EdgePairs::list_contacts(const Outer& outer, const EeeCurve& curve,
   NodeContacts all;
   const auto points = curve.points_at(cut);
   if (points) {
-    all = contacts_of_line(g_, probe_, known_, *points, {.grazes = node.grazes}).along;
+    all = contacts_of_line(g_, known_, *points, {.grazes = node.grazes}).along;
   } else if (const auto line = curve.line_at(cut)) {
     const auto edge = [&](int ridge) { return g_.ridges()[ridge].edge; };
     all = contacts_along(g_, *line, {edge(outer.first), edge(outer.last)}, node.grazes);

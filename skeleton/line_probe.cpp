@@ -5,12 +5,9 @@
 #include <limits>
 
 #include "skeleton/line_probe_internal.h"
-#include "skeleton/node_contacts_internal.h"
 
 namespace sightline::internal {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 double norm1(const Point& p) { return p.cwiseAbs().sum(); }
 
@@ -82,48 +79,47 @@ bool LineProbe::named(int face) const {
          std::find(facets_.begin(), facets_.end(), f.facet) != facets_.end();
 }
 
-LineProbe::Along::Along(const Scene& scene, const Point& a, const Point& b, double error)
-    : a_(a), d_(b - a), inverse_(d_.cwiseInverse()), length_(d_.norm()) {
-  const auto& bounds = scene.bounds();
+bool LineProbe::may_touch_more(const Point& a, const Point& b, double error,
+                               std::span<const Generator> known) {
+  name(known);
+  unsure_.clear();
+  const Point d = b - a;
+  const double length = d.norm();
+  if (!(length > 4 * error)) return true;
+  const auto& bounds = g_.scene().bounds();
+  double size = 0;
   for (int i = 0; i < 3; ++i) {
-    size_ = std::max({size_, std::abs(bounds[0][i]), std::abs(bounds[1][i])});
+    size = std::max({size, std::abs(bounds[0][i]), std::abs(bounds[1][i])});
   }
-  // What the line is off by anywhere in the scene's box, and what the bounds of range_in
-  // round by (a few units in the last place of size, magnified likewise): generous.
-  grow_ = (4 * error + 64 * kUnit * size_) * (1 + 4 * size_ / length_);
-}
-
-LineProbe::Range LineProbe::Along::range_in(const Box& box) const {
-  Range range{-kInfinity, kInfinity};
-  for (int i = 0; i < 3; ++i) {
-    const double low = box.min[i] - grow_ - a_[i];
-    const double high = box.max[i] + grow_ - a_[i];
-    // Nearly parallel to the slab: it excludes the line only where a is far outside,
-    // and says nothing of positions.
-    if (std::abs(d_[i]) * (4 * size_) <= grow_ * length_) {
-      const double sway = 4 * size_ / length_ * std::abs(d_[i]);
-      if (low > sway || high < -sway) return Range{kInfinity, -kInfinity};
-      continue;
+  // What the line is off by anywhere in the scene's box, and what the bounds below round
+  // by (a few units in the last place of size, magnified likewise): generous.
+  const double grow = (4 * error + 64 * kUnit * size) * (1 + 4 * size / length);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const Point inverse = d.cwiseInverse();
+  const auto range_in = [&](const Box& box) {
+    Range range{-kInfinity, kInfinity};
+    for (int i = 0; i < 3; ++i) {
+      const double low = box.min[i] - grow - a[i];
+      const double high = box.max[i] + grow - a[i];
+      // Nearly parallel to the slab: it excludes the line only where a is far outside,
+      // and says nothing of positions.
+      if (std::abs(d[i]) * (4 * size) <= grow * length) {
+        const double sway = 4 * size / length * std::abs(d[i]);
+        if (low > sway || high < -sway) return Range{kInfinity, -kInfinity};
+        continue;
+      }
+      const double p = low * inverse[i];
+      const double q = high * inverse[i];
+      range.from = std::max(range.from, std::min(p, q));
+      range.to = std::min(range.to, std::max(p, q));
     }
-    const double p = low * inverse_[i];
-    const double q = high * inverse_[i];
-    range.from = std::max(range.from, std::min(p, q));
-    range.to = std::min(range.to, std::max(p, q));
-  }
-  return range;
-}
-
-// The free segment ends at the latest where the nearest wall on either side does.
-bool LineProbe::matters(const Range& r) const {
-  return r.from <= r.to && r.from <= free_.to && r.to >= free_.from;
-}
-
-// Visits the faces that matter, as told by their boxes, from the segment outwards, so
-// that walls are met early.  `visit` may make free_ shorter, `leave` hears of ranges that
-// do not matter.
-template <class Visit, class Leave>
-void LineProbe::walk(const Along& line, const Visit& visit, const Leave& leave) {
-  free_ = {-kInfinity, kInfinity};
+    return range;
+  };
+  // The free segment ends at the latest where the nearest wall on either side does.
+  Range free{-kInfinity, kInfinity};
+  const auto matters = [&](const Range& r) {
+    return r.from <= r.to && r.from <= free.to && r.to >= free.from;
+  };
   const auto away = [](const Range& r) { return std::max({0.0, r.from - 1, -r.to}); };
   const Bvh& tree = g_.face_tree();
   struct Entry {
@@ -132,95 +128,33 @@ void LineProbe::walk(const Along& line, const Visit& visit, const Leave& leave) 
   };
   std::array<Entry, 128> stack;
   int top = 0;
-  const auto push = [&](const Entry& entry) {
-    if (matters(entry.range)) {
-      stack[top++] = entry;
-    } else {
-      leave(entry.range);
-    }
-  };
-  if (!tree.empty()) push({0, line.range_in(tree.node(0).box)});
+  if (!tree.empty()) stack[top++] = {0, range_in(tree.node(0).box)};
   while (top > 0) {
     const Entry entry = stack[--top];
-    if (!matters(entry.range)) {
-      leave(entry.range);
-      continue;
-    }
+    if (!matters(entry.range)) continue;
     const Bvh::Node& node = tree.node(entry.node);
     if (node.count == 0) {
-      Entry near{node.first, line.range_in(tree.node(node.first).box)};
-      Entry far{node.first + 1, line.range_in(tree.node(node.first + 1).box)};
+      // From the segment outwards, so that walls are met early.
+      Entry near{node.first, range_in(tree.node(node.first).box)};
+      Entry far{node.first + 1, range_in(tree.node(node.first + 1).box)};
       if (away(far.range) < away(near.range)) std::swap(near, far);
-      push(far);
-      push(near);
+      if (matters(far.range)) stack[top++] = far;
+      if (matters(near.range)) stack[top++] = near;
       continue;
     }
     for (std::uint32_t k = 0; k < node.count; ++k) {
       const int face = static_cast<int>(tree.items()[node.first + k]);
-      const Range range = line.range_in(g_.face_box(face));
-      if (matters(range)) {
-        visit(face, range);
-      } else {
-        leave(range);
-      }
+      if (named(face)) continue;
+      const Range range = range_in(g_.face_box(face));
+      if (!matters(range)) continue;
+      const Met how = met(g_.scene(), face, a, b, error);
+      if (how == Met::Unsure) unsure_.push_back(range);
+      if (how != Met::Crossed) continue;
+      if (range.from > 1) free.to = std::min(free.to, range.to);
+      if (range.to < 0) free.from = std::max(free.from, range.from);
     }
   }
-}
-
-// The line crosses the inside of a face at these positions.
-void LineProbe::end_at(const Range& wall) {
-  if (wall.from > 1) free_.to = std::min(free_.to, wall.to);
-  if (wall.to < 0) free_.from = std::max(free_.from, wall.from);
-}
-
-bool LineProbe::may_touch_more(const Point& a, const Point& b, double error,
-                               std::span<const Generator> known) {
-  name(known);
-  unsure_.clear();
-  if (!((b - a).norm() > 4 * error)) return true;
-  walk(
-      Along(g_.scene(), a, b, error),
-      [&](int face, const Range& range) {
-        if (named(face)) return;
-        const Met how = met(g_.scene(), face, a, b, error);
-        if (how == Met::Unsure) unsure_.push_back(range);
-        if (how == Met::Crossed) end_at(range);
-      },
-      [](const Range&) {});
-  return std::any_of(unsure_.begin(), unsure_.end(),
-                     [&](const Range& r) { return matters(r); });
-}
-
-NearFaces LineProbe::faces_near(const Point& a, const Point& b) {
-  const double error = 4 * kUnit * (norm1(a) + norm1(b));
-  NearFaces near;
-  if (!((b - a).norm() > 4 * error)) {
-    near.faces = faces_near_line(g_, a, b);
-    return near;
-  }
-  found_.clear();
-  const auto leave = [&](const Range& range) {
-    if (range.from > range.to) return;  // not met
-    if (range.from > 1) near.to = std::min(near.to, range.from);
-    if (range.to < 0) near.from = std::max(near.from, range.to);
-  };
-  walk(
-      Along(g_.scene(), a, b, error),
-      [&](int face, const Range& range) {
-        found_.push_back({face, range});
-        if (met(g_.scene(), face, a, b, error) == Met::Crossed) end_at(range);
-      },
-      leave);
-  // Walls met later may have left out some of them.
-  for (const Found& found : found_) {
-    if (matters(found.range)) {
-      near.faces.push_back(found.face);
-    } else {
-      leave(found.range);
-    }
-  }
-  std::sort(near.faces.begin(), near.faces.end());
-  return near;
+  return std::any_of(unsure_.begin(), unsure_.end(), matters);
 }
 
 }  // namespace sightline::internal

@@ -5,7 +5,6 @@
 
 #include "linespace/stop_scope_internal.h"
 #include "skeleton/known_lines_internal.h"
-#include "skeleton/line_probe_internal.h"
 #include "skeleton/node_contacts_internal.h"
 
 namespace sightline::internal {
@@ -214,13 +213,10 @@ int last_contact(const LineScan& scan, int contact, int step) {
   return contact;
 }
 
-// Of the line from the first to the last contact of a maximal free segment: without the
-// one at an end where it is blocked.
+// From the first to the last of these contacts of a line; none where one of them blocks:
+// an end contact is met by a segment that ends there, but not by others that it stops.
 std::optional<std::array<Rational, 2>> free_part(const LineScan& scan, int first,
                                                  int last) {
-  if (scan.blocked(first)) ++first;
-  if (last >= first && scan.blocked(last)) --last;
-  if (first > last) return std::nullopt;
   for (int c = first; c <= last; ++c) {
     if (scan.blocked(c)) return std::nullopt;
   }
@@ -541,8 +537,6 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   node.segment = {rounded(along(line[0], line[1], scan.from(first))),
                   rounded(along(line[0], line[1], scan.to(last)))};
   if (node.turned) std::swap(node.segment[0], node.segment[1]);
-  node.reach = {scan.from(first).convert_to<double>(),
-                scan.to(last).convert_to<double>()};
   if (ends_one_arc(node.kind)) return node;
   if (node.kind == NodeKind::Degenerate) {
     node.line = name != nullptr ? *name : name_of_line(line);
@@ -559,39 +553,26 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   return node;
 }
 
-LineContacts contacts_of_line(const Generators& g, LineProbe& probe, KnownLines& known,
+LineContacts contacts_of_line(const Generators& g, KnownLines& known,
                               const std::array<ExactPoint, 2>& line,
                               const LineQuestion& question) {
   const bool may_be_known = !g.polygon() && !question.end.value_or(false);
   if (may_be_known) {
     if (const NodeContacts* before = known.find(line)) return {*before, {}, false};
   }
-  const auto look_at = [&](std::span<const int> faces) {
-    const LineScan scan(g.scene(), faces, line[0], line[1]);
-    LineContacts found;
-    if (question.end) {
-      found.end = *question.end;
-    } else if (!is_free(scan)) {
-      found.between = contacts_between(g, scan);
-      found.end = found.between->end;
-    }
-    found.along = contacts_along(g, scan, line, found.end, question.grazes,
-                                 may_be_known ? &known.name() : nullptr);
-    if (question.between && !found.between && found.along.kind != NodeKind::Degenerate) {
-      found.between = contacts_between(g, scan);
-    }
-    return found;
-  };
-  const Point a = rounded(line[0]);
-  const Point b = rounded(line[1]);
-  // In polygon mode the contact beyond the last one counts too.
-  if (g.polygon()) return look_at(faces_near_line(g, a, b));
-  const NearFaces near = probe.faces_near(a, b);
-  LineContacts found = look_at(near.faces);
-  // A face that was left out has a part in none of these contacts.
-  const auto& [first, last] = found.along.reach;
-  if (found.along.generators.empty() || first <= near.from || last >= near.to) {
-    found = look_at(faces_near_line(g, a, b));
+  const LineScan scan(g.scene(), faces_near_line(g, rounded(line[0]), rounded(line[1])),
+                      line[0], line[1]);
+  LineContacts found;
+  if (question.end) {
+    found.end = *question.end;
+  } else if (!is_free(scan)) {
+    found.between = contacts_between(g, scan);
+    found.end = found.between->end;
+  }
+  found.along = contacts_along(g, scan, line, found.end, question.grazes,
+                               may_be_known ? &known.name() : nullptr);
+  if (question.between && !found.between && found.along.kind != NodeKind::Degenerate) {
+    found.between = contacts_between(g, scan);
   }
   if (may_be_known && !found.end) known.keep(found.along);
   return found;

@@ -68,12 +68,9 @@ struct NodeContacts {
   LineName line;
   /// The outermost contacts, rounded, in the order of `generators`; of contacts_along().
   std::array<Point, 2> segment{Point::Zero(), Point::Zero()};
-  /// Where on the line, as the scan counts, the outermost contacts begin and end,
-  /// rounded; of contacts_along().
-  std::array<double, 2> reach{};
   /// Solid mode, of contacts_along() of a Degenerate line: a part of the line, by
   /// positions, all of whose contacts graze, so that other segments on it have the same
-  /// contacts along their maximal free segment; none where a contact in between blocks,
+  /// contacts along their maximal free segment; none where one of its contacts blocks,
   /// or `both_ways`.
   std::optional<std::array<Rational, 2>> free_part;
 };
@@ -99,7 +96,6 @@ struct NodeContacts {
                                           bool grazes, const LineName* name = nullptr);
 
 class KnownLines;
-class LineProbe;
 
 struct LineQuestion {
   bool grazes = true;  ///< as for contacts_along()
@@ -114,10 +110,9 @@ struct LineContacts {
   bool end = false;  ///< as told, or as contacts_between() says
 };
 
-/// contacts_along() of the line through two points, unless it is known; faces are looked
-/// for as far as the line is free.
+/// contacts_along() of the line through two points, unless it is known.
 [[nodiscard]] LineContacts contacts_of_line(const Generators& generators,
-                                            LineProbe& probe, KnownLines& known,
+                                            KnownLines& known,
                                             const std::array<ExactPoint, 2>& line,
                                             const LineQuestion& question);
 
