@@ -245,14 +245,14 @@ struct TouchingPlacer {
 void add_touching(PolygonSoup& soup, Random& random, int count) {
   TouchingPlacer placer{soup, random, {}};
   if (random.one_in(2)) placer.ground();
-  while (static_cast<int>(soup.groups.size()) < count) {
-    const std::size_t before = soup.groups.size();
+  // Some find no place beside the others.
+  for (int tries = 0; static_cast<int>(soup.groups.size()) < count && tries < 1000;
+       ++tries) {
     if (random.one_in(4)) {
       placer.sheet();
     } else {
       placer.solid();
     }
-    if (soup.groups.size() == before) break;
   }
 }
 
