@@ -6,6 +6,7 @@
 #include "linespace/stop_scope_internal.h"
 #include "skeleton/known_lines_internal.h"
 #include "skeleton/node_contacts_internal.h"
+#include "skeleton/quotient_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -22,7 +23,7 @@ struct Reach {
     const ExactPoint way = exact_difference(line[1], line[0]);
     std::size_t axis = 0;
     while (axis < 2 && way[axis] == 0) ++axis;
-    return has(Rational((p[axis] - line[0][axis]) / way[axis]));
+    return has(quotient(Rational(p[axis] - line[0][axis]), way[axis]));
   }
 };
 

@@ -357,10 +357,10 @@ struct ViewEvents::Impl {
     const ExactPoint first = point_on(triple.lines[0]);
     const ExactPoint last = point_on(triple.lines[2]);
     const LineScan between = scan(first, last);
-    const std::array<bool, 2> ends{triple.ends[0], triple.ends[2]};
-    const bool as_arc = ends == std::array<bool, 2>{}
+    const std::array<bool, 2> outer{triple.ends[0], triple.ends[2]};
+    const bool as_arc = outer == std::array<bool, 2>{}
                             ? is_free(between)
-                            : blocked_ends(generators, between) == ends;
+                            : blocked_ends(generators, between) == outer;
     const ExactPoint x = point_on(path.line());
     const bool free = as_arc && free_between(scan(side == 1 ? last : first, x));
     return free ? Answer::Yes : Answer::No;
