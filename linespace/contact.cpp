@@ -794,10 +794,11 @@ struct LineScan::Impl {
 
   std::vector<Corner> corners;
   mutable std::vector<Position> positions;
-  std::vector<Hit> hits;        // by position `from` once sorted
-  std::vector<int> first_hit;   // of each contact, and the end
-  std::vector<int> contact_to;  // position
-  std::vector<int> loops;       // corner ids of faces in a plane with L, face by face
+  std::vector<Hit> hits;                     // by position `from` once sorted
+  std::vector<int> first_hit;                // of each contact, and the end
+  std::vector<int> contact_to;               // position
+  std::vector<std::optional<bool>> blocked;  // of each contact, once asked
+  std::vector<int> loops;  // corner ids of faces in a plane with L, face by face
   // Scratch of the first stage, per corner of a face.
   std::vector<double> u_scratch;
   std::vector<std::int8_t> signs;
@@ -1426,7 +1427,10 @@ std::vector<Rational> LineScan::instants(int contact) const {
 }
 
 bool LineScan::blocked(int contact) const {
-  return impl_->judge(contact, nullptr, nullptr);
+  if (impl_->blocked.empty()) impl_->blocked.resize(static_cast<std::size_t>(size()));
+  std::optional<bool>& known = impl_->blocked[static_cast<std::size_t>(contact)];
+  if (!known) known = impl_->judge(contact, nullptr, nullptr);
+  return *known;
 }
 
 bool LineScan::blocked_between(int contact, const Rational& lo,
