@@ -375,7 +375,9 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
       // Where the edge enters a face, a corner that is one cone touches nothing else.
       const bool simple =
           !is_pierced_at(pair, cut) || (star_->convex && cut.kind == CutKind::Pierce);
-      if (!mild && simple) return end_node(pair, cut, arc.ends, out);
+      if (!mild && simple) {
+        if (const auto found = end_node(pair, cut, arc.ends, out)) return *found;
+      }
       if (g_.polygon()) list_faces(pair);
       return contact_node(g_, *star_, r, pair.lists.faces, cut, arc.ends, out);
     };
@@ -497,9 +499,9 @@ bool VertexViewer::is_pierced_at(const Pair& pair, const Cut& cut) const {
                      });
 }
 
-std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
-                                     const std::array<bool, 2>& ends,
-                                     VertexView& out) const {
+std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut& cut,
+                                                    const std::array<bool, 2>& ends,
+                                                    VertexView& out) const {
   const Generator vertex{GeneratorKind::Vertex, point_};
   const Generator edge{GeneratorKind::Edge, pair.r->edge};
   const auto alone = [](std::span<const std::int32_t> a,
@@ -515,12 +517,12 @@ std::uint32_t VertexViewer::end_node(const Pair& pair, const Cut& cut,
     const auto objects = g_.objects_at(far);
     const bool self = alone(own_objects_, objects);
     const Generator generators[] = {vertex, {GeneratorKind::Vertex, far}};
-    const bool degenerate =
-        there == StarContact::Degenerate || here == StarContact::Degenerate;
+    if (there == StarContact::Degenerate || here == StarContact::Degenerate)
+      return std::nullopt;
     const std::array<bool, 2> blocked{here == StarContact::Blocked,
                                       there == StarContact::Blocked};
-    return out.add_node(degenerate ? NodeKind::Degenerate : NodeKind::VV, self,
-                        blocked[0] || blocked[1], generators, {at_, scene_.point(far)},
+    return out.add_node(NodeKind::VV, self, blocked[0] || blocked[1], generators,
+                        {at_, scene_.point(far)},
                         g_.polygon() ? blocked : std::array<bool, 2>{});
   }
   const Point hit = pair.e0 + cut.parameter() * (pair.e1 - pair.e0);

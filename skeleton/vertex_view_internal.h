@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -123,8 +124,11 @@ class VertexViewer {
                                      std::span<const CutInterval> open) const;
   [[nodiscard]] bool pierced_inside(Pair& pair, std::span<const CutInterval> open) const;
   [[nodiscard]] bool is_pierced_at(const Pair& pair, const Cut& cut) const;
-  std::uint32_t end_node(const Pair& pair, const Cut& cut,
-                         const std::array<bool, 2>& ends, VertexView& out) const;
+  /// nullopt where an end of the edge lies in the plane of a face at a corner: then the
+  /// contacts have to be listed.
+  [[nodiscard]] std::optional<std::uint32_t> end_node(const Pair& pair, const Cut& cut,
+                                                      const std::array<bool, 2>& ends,
+                                                      VertexView& out) const;
   void add_line_ups(VertexView& out);  // EVE
   [[nodiscard]] Cut line_up_cut(const LineThrough& edge, const PlaneSide& plane,
                                 const std::array<std::int32_t, 2>& q) const;

