@@ -42,7 +42,7 @@ struct Ridge {
   PlaneSide a, b;
   /// A point beside the edge in the plane of a, of b; and the facet of the face there.
   std::array<std::int32_t, 2> thirds, facets;
-  /// Of all faces at the edge, and at those that coincide with it.
+  /// Facets of all faces at the edge and at edges that coincide with it, ascending.
   std::vector<std::int32_t> all_facets;
   /// A foreign face touches the open edge: lines there need the general contact test.
   bool touched;
@@ -99,11 +99,12 @@ struct Star {
   std::int32_t point = -1;
   /// With the point on their boundary or inside.
   std::vector<std::int32_t> faces;
-  /// Those with an edge that ends at the point, ascending: its own.
+  /// Its own facets, ascending: those with an edge that ends at the point.
   std::vector<std::int32_t> facets;
   /// Rays along the sides at the point, as far end points: one per direction.
   std::vector<std::int32_t> rays;
-  /// Of each ray: an edge runs along it.  Else it cuts a face, or a facet, in parts.
+  /// For each ray whether an edge runs along it; other rays only cut a face, or a facet,
+  /// in parts.
   std::vector<std::uint8_t> along_edge;
   /// Each face as (ray, ray, facet), positions in `rays`, less than half a turn apart.
   struct Sector {

@@ -16,20 +16,13 @@
 namespace sightline {
 namespace {
 
+using internal::along;
 using internal::ExactPoint;
 using internal::LineScan;
 using internal::Rational;
+using internal::rounded;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-ExactPoint along(const ExactPoint& a, const ExactPoint& b, const Rational& s) {
-  return {a[0] + s * (b[0] - a[0]), a[1] + s * (b[1] - a[1]), a[2] + s * (b[2] - a[2])};
-}
-
-Point rounded(const ExactPoint& p) {
-  return {p[0].convert_to<double>(), p[1].convert_to<double>(),
-          p[2].convert_to<double>()};
-}
 
 // The free segment through positions 0 and 1, which is free itself but for the contacts
 // at 0 and at 1 where `ends` says that it ends there.

@@ -6,35 +6,18 @@
 
 #include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
+#include "tests/support/add_box.h"
 #include "tests/support/generators.h"
 
 namespace sightline {
 namespace {
 
-void add_box(PolygonSoup& soup, const char* name, const Point& low, const Point& high) {
-  const int v = static_cast<int>(soup.vertices.size());
-  const int f = static_cast<int>(soup.polygons.size());
-  for (int i = 0; i < 8; ++i) {
-    soup.vertices.emplace_back((i & 1) ? high[0] : low[0], (i & 2) ? high[1] : low[1],
-                               (i & 4) ? high[2] : low[2]);
-  }
-  for (const auto& face : {std::array{0, 4, 6, 2},
-                           {1, 3, 7, 5},
-                           {0, 1, 5, 4},
-                           {2, 6, 7, 3},
-                           {0, 2, 3, 1},
-                           {4, 5, 7, 6}}) {
-    soup.polygons.push_back({v + face[0], v + face[1], v + face[2], v + face[3]});
-  }
-  soup.groups.push_back({name, {f, f + 1, f + 2, f + 3, f + 4, f + 5}});
-}
-
 // Two tetrahedra, a corner of each in the plane x = 0, and between them a wall of two
 // boxes with a slit of width `gap`.
 PolygonSoup slit_scene(double gap) {
   PolygonSoup soup;
-  add_box(soup, "left", {-5, -0.1, -5}, {-gap / 2, 0.1, 5});
-  add_box(soup, "right", {gap / 2, -0.1, -5}, {5, 0.1, 5});
+  testing::add_box(soup, "left", {-5, -0.1, -5}, {-gap / 2, 0.1, 5});
+  testing::add_box(soup, "right", {gap / 2, -0.1, -5}, {5, 0.1, 5});
   const auto add_tetrahedron = [&](const char* name, const Point& at) {
     const int v = static_cast<int>(soup.vertices.size());
     const int f = static_cast<int>(soup.polygons.size());

@@ -10,28 +10,11 @@
 
 #include "linespace/scene.h"
 #include "skeleton/skeleton.h"
+#include "tests/support/add_box.h"
 #include "tests/support/generators.h"
 
 namespace sightline {
 namespace {
-
-void add_box(PolygonSoup& soup, const char* name, const Point& low, const Point& high) {
-  const int v = static_cast<int>(soup.vertices.size());
-  const int f = static_cast<int>(soup.polygons.size());
-  for (int i = 0; i < 8; ++i) {
-    soup.vertices.emplace_back((i & 1) ? high[0] : low[0], (i & 2) ? high[1] : low[1],
-                               (i & 4) ? high[2] : low[2]);
-  }
-  for (const auto& face : {std::array{0, 4, 6, 2},
-                           {1, 3, 7, 5},
-                           {0, 1, 5, 4},
-                           {2, 6, 7, 3},
-                           {0, 2, 3, 1},
-                           {4, 5, 7, 6}}) {
-    soup.polygons.push_back({v + face[0], v + face[1], v + face[2], v + face[3]});
-  }
-  soup.groups.push_back({name, {f, f + 1, f + 2, f + 3, f + 4, f + 5}});
-}
 
 // The edge between two points.
 int edge_between(const Scene& scene, const Point& p, const Point& q) {
@@ -59,11 +42,11 @@ int arcs_with(const Skeleton& skeleton, int a, int b) {
 // The lines lie in the plane of the roofs, and in that of the walls.
 TEST(LinesOfOnePlane, AreNotFreeBetweenWallsThatTouchInAnotherOne) {
   PolygonSoup soup;
-  add_box(soup, "near", {14, 12, 0}, {16, 13, 3});
-  add_box(soup, "roof", {13, 15, 0}, {16, 16, 3});
-  add_box(soup, "front", {14, 20, 0}, {16, 21, 4});
-  add_box(soup, "back", {11, 22, 0}, {14, 25, 4});
-  add_box(soup, "pressed", {14, 23, 0}, {16, 24, 4});
+  testing::add_box(soup, "near", {14, 12, 0}, {16, 13, 3});
+  testing::add_box(soup, "roof", {13, 15, 0}, {16, 16, 3});
+  testing::add_box(soup, "front", {14, 20, 0}, {16, 21, 4});
+  testing::add_box(soup, "back", {11, 22, 0}, {14, 25, 4});
+  testing::add_box(soup, "pressed", {14, 23, 0}, {16, 24, 4});
   const Scene scene(soup);
   const Skeleton skeleton = build_skeleton(scene, {});
   const int near = edge_between(scene, {14, 12, 3}, {14, 13, 3});
@@ -80,11 +63,11 @@ TEST(LinesOfOnePlane, AreNotFreeBetweenWallsThatTouchInAnotherOne) {
 TEST(LinesOfOnePlane, AreHiddenBetweenSolidsThatTouchInThePlane) {
   for (const bool both : {false, true}) {
     PolygonSoup soup;
-    add_box(soup, "near", {14, 0, 0}, {16, 1, 3});
-    add_box(soup, "next", {14, 5, 0}, {16, 6, 2});
-    add_box(soup, "front", {14, 10, -1}, {16, 12, 4});
-    if (both) add_box(soup, "back", {12, 10, -1}, {14, 12, 4});
-    add_box(soup, "bar", {10, 20, 1}, {18, 21, 2});
+    testing::add_box(soup, "near", {14, 0, 0}, {16, 1, 3});
+    testing::add_box(soup, "next", {14, 5, 0}, {16, 6, 2});
+    testing::add_box(soup, "front", {14, 10, -1}, {16, 12, 4});
+    if (both) testing::add_box(soup, "back", {12, 10, -1}, {14, 12, 4});
+    testing::add_box(soup, "bar", {10, 20, 1}, {18, 21, 2});
     const Scene scene(soup);
     const Skeleton skeleton = build_skeleton(scene, {});
     const int near = edge_between(scene, {14, 1, 0}, {14, 1, 3});
@@ -99,9 +82,9 @@ TEST(LinesOfOnePlane, AreHiddenBetweenSolidsThatTouchInThePlane) {
 TEST(KnownLines, AreToldPartByPart) {
   PolygonSoup soup;
   for (const double x : {0.0, 4.0, 8.0, 16.0, 20.0, 24.0}) {
-    add_box(soup, "box", {x, 0, 0}, {x + 1, 1, 1});
+    testing::add_box(soup, "box", {x, 0, 0}, {x + 1, 1, 1});
   }
-  add_box(soup, "wall", {12, -30, -30}, {13, 30, 30});
+  testing::add_box(soup, "wall", {12, -30, -30}, {13, 30, 30});
   const Scene scene(soup);
   const Skeleton skeleton = build_skeleton(scene, {});
   int in_line = 0;
@@ -126,7 +109,7 @@ TEST(BuriedStretches, HaveNoArcs) {
     const double ground = 0.5 * (bounds[0][2] + bounds[1][2]);
     const Point low = bounds[0] - Point::Ones();
     const Point high(bounds[1][0] + 1, bounds[1][1] + 1, ground);
-    add_box(soup, "ground", low, high);
+    testing::add_box(soup, "ground", low, high);
     for (const EventMode events : {EventMode::Solid, EventMode::Polygon}) {
       SkeletonRequest request;
       request.events = events;
