@@ -783,12 +783,18 @@ struct RoundedLine {
 }  // namespace
 
 struct LineScan::Impl {
-  explicit Impl(const Scene& s) : scene(s) {}
+  explicit Impl(const Scene& s) : scene(s) {
+    // As many as most lines meet.
+    corners.reserve(16);
+    positions.reserve(16);
+    hits.reserve(16);
+  }
 
   const Scene& scene;
   Ring alpha, origin[3], direction[3];
   bool alpha_is_one = true;
-  Gmpq scale;  // delta / alpha
+  Gmpq scale;            // delta / alpha
+  double rounded_scale;  // within 2 ulp
   int k = 0;
   RoundedLine rounded;
 
@@ -815,6 +821,7 @@ struct LineScan::Impl {
   int add_position(Ring num, Ring den);
   int compare(int p, int q) const;
   const Rational& t(int position) const;
+  [[nodiscard]] int t_against(int position, int s) const;
 
   bool first_stage(std::span<const int> points);
   void meet(int face);
@@ -832,6 +839,7 @@ void LineScan::Impl::set_line(const Point& a, const Point& b) {
   alpha = Ring(1);
   alpha_is_one = true;
   scale = Gmpq(1);
+  rounded_scale = 1;
   double d[3];
   for (int i = 0; i < 3; ++i) {
     origin[i] = Ring(a[i]);
@@ -862,6 +870,7 @@ void LineScan::Impl::set_line(const ExactPoint& a, const ExactPoint& b) {
   alpha = ring(alpha_z.mpz());
   alpha_is_one = mpz_cmp_ui(alpha_z.mpz(), 1) == 0;
   scale = Gmpq(delta_z, alpha_z);
+  rounded_scale = mpq_get_d(scale.mpq());  // truncates
   double ra[3], rd[3];
   for (int i = 0; i < 3; ++i) {
     origin[i] = scaled(a[i], alpha_z);
@@ -1026,6 +1035,18 @@ const Rational& LineScan::Impl::t(int position) const {
   Position& p = positions[position];
   if (!p.t) p.t = rational(gmpq(p.num) / gmpq(p.den) * scale);
   return *p.t;
+}
+
+// The sign of t(position) - s, s being 0 or 1.
+int LineScan::Impl::t_against(int position, int s) const {
+  const Position& p = positions[position];
+  if (s == 0) return sign_of(p.num);  // den and scale are positive
+  // approx is within a relative 6 ulp, rounded_scale within 2, the product within 1.
+  const double gap = p.approx * rounded_scale - 1;
+  const double bound = 16 * kUlp * (std::abs(gap) + 1) + kUnderflow;
+  if (gap > bound) return 1;
+  if (gap < -bound) return -1;
+  return t(position).compare(1);
 }
 
 // A cut inside a polygon of the file: no feature, whether or not the polygon is flat.
@@ -1378,6 +1399,19 @@ const Rational& LineScan::to(int contact) const {
   return impl_->t(impl_->contact_to[contact]);
 }
 
+int LineScan::from_against(int contact, int s) const {
+  return impl_->t_against(impl_->hits[impl_->first_hit[contact]].from, s);
+}
+
+int LineScan::to_against(int contact, int s) const {
+  return impl_->t_against(impl_->contact_to[contact], s);
+}
+
+bool LineScan::is_point(int contact) const {
+  const int from = impl_->hits[impl_->first_hit[contact]].from;
+  return impl_->compare(from, impl_->contact_to[contact]) == 0;
+}
+
 std::vector<Touch> LineScan::touches(int contact) const {
   std::vector<Touch> out;
   for (int h = impl_->first_hit[contact]; h < impl_->first_hit[contact + 1]; ++h) {
@@ -1416,13 +1450,16 @@ std::vector<int> LineScan::faces_at(int contact, const Rational& t) const {
 }
 
 std::vector<Rational> LineScan::instants(int contact) const {
-  std::vector<Rational> out;
+  std::vector<int> at;
   for (int h = impl_->first_hit[contact]; h < impl_->first_hit[contact + 1]; ++h) {
-    out.push_back(impl_->t(impl_->hits[h].from));
-    out.push_back(impl_->t(impl_->hits[h].to));
+    at.push_back(impl_->hits[h].from);
+    if (impl_->hits[h].to != at.back()) at.push_back(impl_->hits[h].to);
   }
-  std::sort(out.begin(), out.end());
-  out.erase(std::unique(out.begin(), out.end()), out.end());
+  std::sort(at.begin(), at.end(), [&](int p, int q) { return impl_->compare(p, q) < 0; });
+  std::vector<Rational> out;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    if (i == 0 || impl_->compare(at[i - 1], at[i]) != 0) out.push_back(impl_->t(at[i]));
+  }
   return out;
 }
 

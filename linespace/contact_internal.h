@@ -52,6 +52,12 @@ class LineScan {
   [[nodiscard]] int size() const;
   [[nodiscard]] const Rational& from(int contact) const;
   [[nodiscard]] const Rational& to(int contact) const;
+  /// Signs of from(contact) - s and to(contact) - s for s = 0 or 1, where the two points
+  /// are: mostly without the exact numbers.
+  [[nodiscard]] int from_against(int contact, int s) const;
+  [[nodiscard]] int to_against(int contact, int s) const;
+  /// from(contact) == to(contact), as of most.
+  [[nodiscard]] bool is_point(int contact) const;
   /// By face id, each face once.
   [[nodiscard]] std::vector<Touch> touches(int contact) const;
   /// Point ids, ascending, of the corners of its faces in a plane with the line that lie

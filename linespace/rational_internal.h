@@ -17,6 +17,17 @@ using ExactPoint = std::array<Rational, 3>;
   return {Rational(p.x()), Rational(p.y()), Rational(p.z())};
 }
 
+/// The nearest double.  Where numerator and denominator are doubles their quotient is it.
+[[nodiscard]] inline double nearest_double(const Rational& x) {
+  const mpz_srcptr num = mpq_numref(x.backend().data());
+  const mpz_srcptr den = mpq_denref(x.backend().data());
+  constexpr std::size_t kBits = 53;
+  if (mpz_sizeinbase(num, 2) <= kBits && mpz_sizeinbase(den, 2) <= kBits) {
+    return mpz_get_d(num) / mpz_get_d(den);
+  }
+  return x.convert_to<double>();
+}
+
 [[nodiscard]] inline ExactPoint exact_difference(const ExactPoint& to,
                                                  const ExactPoint& from) {
   return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};

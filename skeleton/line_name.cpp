@@ -7,63 +7,84 @@
 namespace sightline::internal {
 namespace {
 
-using Integer = boost::multiprecision::number<boost::multiprecision::gmp_int,
-                                              boost::multiprecision::et_off>;
+// An integer that keeps its memory.
+struct Integer {
+  Integer() { mpz_init(value); }
+  ~Integer() { mpz_clear(value); }
+  Integer(const Integer&) = delete;
+  Integer& operator=(const Integer&) = delete;
+  mpz_t value;
+};
 
 // Two bytes tell how many follow and the sign.
-void append(LineName& name, const Integer& x) {
-  const auto& value = x.backend().data();
-  const std::size_t count = x == 0 ? 0 : (mpz_sizeinbase(value, 2) + 7) / 8;
-  const std::size_t head = 2 * count + (x < 0 ? 1 : 0);
+void append(LineName& name, const mpz_t x) {
+  const std::size_t count = mpz_sgn(x) == 0 ? 0 : (mpz_sizeinbase(x, 2) + 7) / 8;
+  const std::size_t head = 2 * count + (mpz_sgn(x) < 0 ? 1 : 0);
   name.push_back(static_cast<char>(head >> 8));
   name.push_back(static_cast<char>(head & 255));
   const std::size_t start = name.size();
   name.resize(start + count);
-  mpz_export(name.data() + start, nullptr, 1, 1, 0, 0, value);
+  mpz_export(name.data() + start, nullptr, 1, 1, 0, 0, x);
 }
 
+// A point with one denominator.
 struct Whole {
   std::array<Integer, 3> point;
   Integer denominator;
+
+  void set(const ExactPoint& p) {
+    mpz_set_ui(denominator.value, 1);
+    for (const Rational& x : p) {
+      mpz_lcm(denominator.value, denominator.value, mpq_denref(x.backend().data()));
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const mpq_t& x = p[i].backend().data();
+      mpz_divexact(point[i].value, denominator.value, mpq_denref(x));
+      mpz_mul(point[i].value, point[i].value, mpq_numref(x));
+    }
+  }
 };
-Whole over_one_denominator(const ExactPoint& p) {
-  Whole out;
-  out.denominator = 1;
-  for (std::size_t i = 0; i < 3; ++i) {
-    out.denominator = lcm(out.denominator, static_cast<Integer>(denominator(p[i])));
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Integer part = out.denominator / static_cast<Integer>(denominator(p[i]));
-    out.point[i] = static_cast<Integer>(numerator(p[i])) * part;
-  }
-  return out;
-}
+
+// What one call needs, kept by the thread: allocating it took longer than the arithmetic.
+struct Scratch {
+  Whole a, b;
+  std::array<Integer, 3> way;
+  std::array<Integer, 6> whole;
+  Integer divisor;
+};
 
 }  // namespace
 
 // With points A / alpha and B / beta the direction is w = alpha B - beta A and the moment
 // A x w / alpha, up to one factor: all times alpha they are integers.
 LineName name_of_line(const std::array<ExactPoint, 2>& line) {
-  const auto [a, alpha] = over_one_denominator(line[0]);
-  const auto [b, beta] = over_one_denominator(line[1]);
-  std::array<Integer, 3> w;
-  for (std::size_t i = 0; i < 3; ++i) w[i] = alpha * b[i] - beta * a[i];
-  std::array<Integer, 6> whole;
+  thread_local Scratch scratch;
+  auto& [a, b, way, whole, divisor] = scratch;
+  a.set(line[0]);
+  b.set(line[1]);
+  for (std::size_t i = 0; i < 3; ++i) {
+    mpz_mul(way[i].value, a.denominator.value, b.point[i].value);
+    mpz_submul(way[i].value, b.denominator.value, a.point[i].value);
+  }
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t j = (i + 1) % 3;
     const std::size_t k = (i + 2) % 3;
-    whole[i] = alpha * w[i];
-    whole[i + 3] = a[j] * w[k] - a[k] * w[j];
+    mpz_mul(whole[i].value, a.denominator.value, way[i].value);
+    mpz_mul(whole[i + 3].value, a.point[j].value, way[k].value);
+    mpz_submul(whole[i + 3].value, a.point[k].value, way[j].value);
   }
-  Integer divisor = 0;
+  mpz_set_ui(divisor.value, 0);
   bool negative = false;
   for (const Integer& x : whole) {
-    if (divisor == 0) negative = x < 0;
-    divisor = gcd(divisor, x);
+    if (mpz_sgn(divisor.value) == 0) negative = mpz_sgn(x.value) < 0;
+    mpz_gcd(divisor.value, divisor.value, x.value);
   }
+  if (negative) mpz_neg(divisor.value, divisor.value);
   LineName name;
-  for (const Integer& x : whole)
-    append(name, negative ? Integer(-x / divisor) : Integer(x / divisor));
+  for (Integer& x : whole) {
+    mpz_divexact(x.value, x.value, divisor.value);
+    append(name, x.value);
+  }
   return name;
 }
 

@@ -106,7 +106,7 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
 bool blocks_segment(const LineScan& scan, int contact) {
   // A line past all of the contact passes a part of it.
   if (!scan.blocked(contact)) return false;
-  if (scan.from(contact) >= 0 && scan.to(contact) <= 1) return true;
+  if (scan.from_against(contact, 0) >= 0 && scan.to_against(contact, 1) <= 0) return true;
   Rational low = -1;
   Rational high = 2;
   for (const Rational& t : scan.instants(contact)) {
@@ -167,7 +167,7 @@ struct Pressed {
 };
 Pressed pressed_parts(const Generators& g, const LineScan& scan, int contact) {
   Pressed result;
-  if (scan.from(contact) == scan.to(contact)) return result;
+  if (scan.is_point(contact)) return result;
   std::vector<Rational> stops = scan.instants(contact);
   stops.insert(stops.end(), {0, 1});
   std::sort(stops.begin(), stops.end());
@@ -184,15 +184,15 @@ Pressed pressed_parts(const Generators& g, const LineScan& scan, int contact) {
 }
 
 bool meets_segment(const LineScan& scan, int contact) {
-  return scan.to(contact) >= 0 && scan.from(contact) <= 1;
+  return scan.to_against(contact, 0) >= 0 && scan.from_against(contact, 1) <= 0;
 }
 
 // The segment comes into a part of the contact, if it comes from where it begins (step
 // 1) or ends (-1).
 bool is_entered(const LineScan& scan, int contact, int step) {
+  if (scan.is_point(contact)) return false;
   const std::vector<Rational> at = scan.instants(contact);
   const std::size_t n = at.size();
-  if (n < 2) return false;
   return step > 0 ? !scan.blocked_between(contact, at[0] - 1, at[1])
                   : !scan.blocked_between(contact, at[n - 2], at[n - 1] + 1);
 }
@@ -379,8 +379,7 @@ ExactPoint along(const ExactPoint& a, const ExactPoint& b, const Rational& s) {
 }
 
 Point rounded(const ExactPoint& p) {
-  return {p[0].convert_to<double>(), p[1].convert_to<double>(),
-          p[2].convert_to<double>()};
+  return {nearest_double(p[0]), nearest_double(p[1]), nearest_double(p[2])};
 }
 
 std::vector<int> faces_near_line(const Generators& g, const Point& a, const Point& b) {
@@ -421,6 +420,10 @@ std::vector<int> faces_near_line(const Generators& g, const Point& a, const Poin
 std::optional<Rational> blocked_beyond(const LineScan& scan, int contact,
                                        const Rational& start, int step) {
   if (!scan.blocked(contact)) return std::nullopt;
+  if (scan.is_point(contact)) {
+    const Rational& t = scan.from(contact);
+    return (step > 0 ? start < t : t < start) ? std::optional(t) : std::nullopt;
+  }
   std::vector<Rational> at = scan.instants(contact);
   if (step < 0) std::reverse(at.begin(), at.end());
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -444,8 +447,8 @@ bool is_free(const LineScan& scan) {
 
 bool free_between(const LineScan& scan) {
   for (int c = 0; c < scan.size(); ++c) {
-    if (scan.to(c) <= 0 || scan.from(c) >= 1) continue;
-    const bool within = scan.from(c) > 0 && scan.to(c) < 1;
+    if (scan.to_against(c, 0) <= 0 || scan.from_against(c, 1) >= 0) continue;
+    const bool within = scan.from_against(c, 0) > 0 && scan.to_against(c, 1) < 0;
     if (within ? scan.blocked(c) : scan.blocked_between(c, 0, 1)) return false;
   }
   return true;
@@ -456,10 +459,11 @@ std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
   std::array<bool, 2> ends{};
   for (int i = 0; i < scan.size(); ++i) {
     if (!meets_segment(scan, i)) continue;
-    if (scan.from(i) == scan.to(i)) {  // a point, as most are
+    if (scan.is_point(i)) {
       if (!scan.blocked(i)) continue;
-      if (scan.from(i) != 0 && scan.from(i) != 1) return std::nullopt;
-      ends[scan.from(i) == 0 ? 0 : 1] = true;
+      const bool at_0 = scan.from_against(i, 0) == 0;
+      if (!at_0 && scan.from_against(i, 1) != 0) return std::nullopt;
+      ends[at_0 ? 0 : 1] = true;
       continue;
     }
     if (!blocks_segment(scan, i)) continue;
@@ -467,9 +471,9 @@ std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
     if (pressed.inside) return std::nullopt;
     const std::array<bool, 2> beyond = pressed.beyond;
     ends = {ends[0] || beyond[0], ends[1] || beyond[1]};
-    const bool at_0 = scan.from(i) <= 0;
-    const bool at_1 = scan.to(i) >= 1;
-    const bool inside = scan.to(i) > 0 && scan.from(i) < 1;
+    const bool at_0 = scan.from_against(i, 0) <= 0;
+    const bool at_1 = scan.to_against(i, 1) >= 0;
+    const bool inside = scan.to_against(i, 0) > 0 && scan.from_against(i, 1) < 0;
     if (inside && scan.blocked_between(i, 0, 1)) return std::nullopt;
     const bool first = at_0 && !beyond[0] && blocks_with_end(scan, i, false);
     const bool last = at_1 && !beyond[1] && blocks_with_end(scan, i, true);
@@ -503,9 +507,9 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
                             const LineName* name) {
   int first = -1;
   int last = -1;
-  for (int c = 0; c < scan.size() && scan.from(c) <= 1; ++c) {
-    if (scan.from(c) <= 0 && scan.to(c) >= 0) first = c;
-    if (scan.to(c) >= 1) last = c;
+  for (int c = 0; c < scan.size() && scan.from_against(c, 1) <= 0; ++c) {
+    if (scan.from_against(c, 0) <= 0 && scan.to_against(c, 0) >= 0) first = c;
+    if (scan.to_against(c, 1) >= 0) last = c;
   }
   if (first < 0 || last < 0) return {};
   const bool polygon = g.polygon();
@@ -535,8 +539,10 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   }
   NodeContacts node = node_along(g, groups);
   name_end_of_arc(g, scan, contacts, groups, node);
-  node.segment = {rounded(along(line[0], line[1], scan.from(first))),
-                  rounded(along(line[0], line[1], scan.to(last)))};
+  const auto point_at = [&](const Rational& t) {
+    return rounded(t == 0 ? line[0] : t == 1 ? line[1] : along(line[0], line[1], t));
+  };
+  node.segment = {point_at(scan.from(first)), point_at(scan.to(last))};
   if (node.turned) std::swap(node.segment[0], node.segment[1]);
   if (ends_one_arc(node.kind)) return node;
   if (node.kind == NodeKind::Degenerate) {
