@@ -47,14 +47,6 @@ Carriers::Carriers(const Generators& g) {
     }
     starts.push_back(static_cast<std::int32_t>(sides.size()));
   }
-  touched_facets.assign(scene.facets().size(), 0);
-  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
-    for (const Side& side : of_face(static_cast<int>(f))) {
-      if (all[side.carrier].edge < 0) continue;
-      const int r = ridge[side.carrier];
-      if (r < 0 || g.ridges()[r].touched) touched_facets[scene.faces()[f].facet] = 1;
-    }
-  }
 }
 
 }  // namespace sightline::internal

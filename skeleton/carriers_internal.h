@@ -26,9 +26,6 @@ struct Carriers {
   };
   std::vector<std::int32_t> starts;
   std::vector<Side> sides;
-  /// Facets of which some side is no ridge that stands free: lines in their planes need
-  /// the general contact test.
-  std::vector<std::uint8_t> touched_facets;
 
   [[nodiscard]] std::span<const Side> of_face(int face) const {
     return {sides.data() + starts[face],

@@ -306,14 +306,16 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     return probe.may_touch_more(
         v, x, error, {view.pool.data() + node.first_generator, node.generator_count});
   };
-  // FvE: the line leaves its face at a corner.
-  const auto leaves_by_corner = [&](const SkeletonNode& node, const Point& e0,
-                                    const Point& e1) {
+  // FvE: the line leaves its face at a corner or, polygon mode, may be stopped on its way
+  // along the face by what touches it.
+  const auto may_end_along_face = [&](const SkeletonNode& node, const Point& e0,
+                                      const Point& e1) {
     if (node.kind != NodeKind::FvE) return false;
     const PlaneSide plane({v, e0, e1});
     for (std::uint32_t k = 0; k < node.generator_count; ++k) {
       const Generator& x = view.pool[node.first_generator + k];
       if (x.kind != GeneratorKind::Face) continue;
+      if (g.polygon() && g.facet_touched(x.id)) return true;
       for (const int f : scene.facets()[x.id].faces) {
         for (const int w : scene.face_points(f)) {
           if (w != star.point && plane(scene.point(w)) == Sign::Zero) return true;
@@ -337,7 +339,7 @@ void find_further_contacts(const Generators& g, const Star& star, LineProbe& pro
     const Edge& edge = scene.edges()[view.arcs[arc].edge];
     const Point& e0 = scene.point(edge.points[0]);
     const Point& e1 = scene.point(edge.points[1]);
-    if (!view.special[id] && !leaves_by_corner(node, e0, e1) &&
+    if (!view.special[id] && !may_end_along_face(node, e0, e1) &&
         !may_touch_more(node, e0, e1, cut)) {
       return;
     }

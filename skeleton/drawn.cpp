@@ -166,61 +166,146 @@ bool drawn_end(const Generators& g, const Ridge& ridge, const LineScan& scan, bo
   return fan.contact(eye) != EdgeContact::None;
 }
 
-bool drawn_corner(const Generators& g, const Star& star, const Eye& eye) {
-  const Scene& scene = g.scene();
-  const Point& v = scene.point(star.point);
-  const auto& rays = star.rays;
-  const auto n = static_cast<int>(rays.size());
-  const auto at = [&](int ray) -> const Point& { return scene.point(rays[ray]); };
-  // Of two rays and the eye, of three rays: the turn of each about v.
-  std::vector<Sign> seen(static_cast<std::size_t>(n) * n, Sign::Zero);
-  const auto turn = [&](int i, int j) {
-    return seen[static_cast<std::size_t>(i) * n + j];
-  };
-  for (int i = 0; i < n; ++i) {
-    for (int j = i + 1; j < n; ++j) {
-      const Sign s = eye.side(v, at(i), at(j));
-      seen[static_cast<std::size_t>(i) * n + j] = s;
-      seen[static_cast<std::size_t>(j) * n + i] = -s;
+namespace {
+
+// The faces at a corner as an eye sees them that looks along a line to it.
+class CornerView {
+ public:
+  CornerView(const Generators& g, const Star& star, const Eye& eye)
+      : g_(g), star_(star), eye_(eye), v_(g.scene().point(star.point)) {
+    const int n = count();
+    turns_.assign(static_cast<std::size_t>(n) * n, Sign::Zero);
+    for (int i = 0; i < n; ++i) {
+      for (int j = i + 1; j < n; ++j) {
+        const Sign s = eye.side(v_, at(i), at(j));
+        turns_[static_cast<std::size_t>(i) * n + j] = s;
+        turns_[static_cast<std::size_t>(j) * n + i] = -s;
+      }
     }
   }
-  for (const Star::Sector& s : star.sectors) {
-    if (turn(s.from, s.to) == Sign::Zero) return true;  // edge-on
+
+  // The line lies in the plane of this sector, of some sector.
+  [[nodiscard]] bool edge_on(const Star::Sector& s) const {
+    return turn(s.from, s.to) == Sign::Zero;
   }
+  [[nodiscard]] bool edge_on() const {
+    return std::ranges::any_of(star_.sectors, [&](const auto& s) { return edge_on(s); });
+  }
+
+  // The line is strictly inside a closed object there.
+  [[nodiscard]] bool in_material() const {
+    std::vector<std::int32_t> objects;
+    for (const Star::Sector& s : star_.sectors) objects.push_back(object_of(s));
+    sort_unique(objects);
+    return std::ranges::any_of(objects, [&](int o) { return inside(o); });
+  }
+
+  // Requires that no sector is edge-on: the line is outside all objects, and lines are
+  // drawn there, not one straight line only.
+  [[nodiscard]] bool drawn() const {
+    std::vector<int> drawn;
+    for (int r = 0; r < count(); ++r) {
+      if (hidden(r, -1)) continue;
+      const EdgeFan fan = fan_at(r, -1);
+      if (fan.from_inside(eye_)) return false;
+      if (star_.along_edge[r] != 0 && fan.contact(eye_) != EdgeContact::None)
+        drawn.push_back(r);
+    }
+    const bool straight = drawn.size() == 2 && collinear(v_, at(drawn[0]), at(drawn[1]));
+    return !drawn.empty() && !straight;
+  }
+
+ private:
+  [[nodiscard]] int count() const { return static_cast<int>(star_.rays.size()); }
+  [[nodiscard]] const Point& at(int ray) const {
+    return g_.scene().point(star_.rays[ray]);
+  }
+  // Seen along the line, from one ray to the other about v.
+  [[nodiscard]] Sign turn(int i, int j) const {
+    return turns_[static_cast<std::size_t>(i) * count() + j];
+  }
+  [[nodiscard]] int object_of(const Star::Sector& s) const {
+    return g_.scene().facets()[s.facet].object;
+  }
+  [[nodiscard]] bool on_line(int ray) const {
+    for (int other = 0; other < count(); ++other) {
+      if (turn(ray, other) != Sign::Zero) return false;
+    }
+    return true;
+  }
+
   // From the ray towards the eye one meets the sector.
-  const auto hides = [&](const Star::Sector& s, int ray) {
-    if (s.from == ray || s.to == ray) return false;
-    const Sign beyond = orient3d(v, at(s.from), at(s.to), at(ray));
-    if (beyond == Sign::Zero || beyond == turn(s.from, s.to)) return false;
-    // Seen along the line the ray is between the sector's sides, or looks like one.
+  [[nodiscard]] bool hides(const Star::Sector& s, int ray) const {
+    if (s.from == ray || s.to == ray || edge_on(s)) return false;
     const Sign inside = turn(s.from, s.to);
+    const Sign beyond = orient3d(v_, at(s.from), at(s.to), at(ray));
+    if (beyond == Sign::Zero || beyond == inside) return false;
+    // Seen along the line the ray is between the sector's sides, or looks like one.
     return turn(s.from, ray) != -inside && turn(ray, s.to) != -inside;
-  };
-  std::vector<int> drawn;
-  for (int r = 0; r < n; ++r) {
-    if (std::any_of(star.sectors.begin(), star.sectors.end(),
-                    [&](const Star::Sector& s) { return hides(s, r); })) {
-      continue;
+  }
+
+  // The ray runs inside the sector.
+  [[nodiscard]] bool contains(const Star::Sector& s, int ray) const {
+    if (orient3d(v_, at(s.from), at(s.to), at(ray)) != Sign::Zero) return false;
+    const Sign whole = turn(s.from, s.to);
+    if (whole != Sign::Zero) {
+      return turn(s.from, ray) == whole && turn(ray, s.to) == whole;
     }
-    EdgeFan fan(g, v, at(r));
-    for (const Star::Sector& s : star.sectors) {
-      const int face = scene.facets()[s.facet].faces[0];
-      if (s.from == r || s.to == r) {
-        fan.add_half(face, rays[s.from == r ? s.to : s.from]);
-      } else if (orient3d(v, at(s.from), at(s.to), at(r)) == Sign::Zero &&
-                 turn(s.from, r) == turn(s.from, s.to) &&
-                 turn(r, s.to) == turn(s.from, s.to)) {
-        fan.add_half(face, rays[s.from]);
-        fan.add_half(face, rays[s.to]);
+    const InPlaneSide left_of(g_.scene(), g_.scene().facets()[s.facet].faces[0]);
+    const Sign turns = left_of(v_, at(s.from), at(s.to));
+    return left_of(v_, at(s.from), at(ray)) == turns &&
+           left_of(v_, at(ray), at(s.to)) == turns;
+  }
+
+  // By the sectors of an object, or of all (-1).
+  [[nodiscard]] bool hidden(int ray, int object) const {
+    return std::ranges::any_of(star_.sectors, [&](const Star::Sector& s) {
+      return (object < 0 || object_of(s) == object) && hides(s, ray);
+    });
+  }
+  [[nodiscard]] EdgeFan fan_at(int ray, int object) const {
+    EdgeFan fan(g_, v_, at(ray));
+    for (const Star::Sector& s : star_.sectors) {
+      if (object >= 0 && object_of(s) != object) continue;
+      const int face = g_.scene().facets()[s.facet].faces[0];
+      if (s.from == ray || s.to == ray) {
+        fan.add_half(face, star_.rays[s.from == ray ? s.to : s.from]);
+      } else if (contains(s, ray)) {
+        fan.add_half(face, star_.rays[s.from]);
+        fan.add_half(face, star_.rays[s.to]);
       }
     }
     fan.close();
-    if (fan.from_inside(eye)) return false;
-    if (star.along_edge[r] != 0 && fan.contact(eye) != EdgeContact::None)
-      drawn.push_back(r);
+    return fan;
   }
-  const bool straight = drawn.size() == 2 && collinear(v, at(drawn[0]), at(drawn[1]));
-  return !drawn.empty() && !straight;
+
+  // Of the rays on an object that nothing of it hides each tells whether the line is
+  // inside.  They agree, but where it runs along a face: that has the inside on one side.
+  [[nodiscard]] bool inside(int object) const {
+    bool inside = false;
+    for (int r = 0; r < count(); ++r) {
+      const bool own = std::ranges::any_of(star_.sectors, [&](const Star::Sector& s) {
+        return object_of(s) == object && (s.from == r || s.to == r);
+      });
+      if (!own || on_line(r) || hidden(r, object)) continue;
+      if (!fan_at(r, object).from_inside(eye_)) return false;
+      inside = true;
+    }
+    return inside;
+  }
+
+  const Generators& g_;
+  const Star& star_;
+  const Eye& eye_;
+  const Point& v_;
+  std::vector<Sign> turns_;  // of each ray to each
+};
+
+}  // namespace
+
+bool drawn_corner(const Generators& g, const Star& star, const Eye& eye) {
+  const CornerView view(g, star, eye);
+  return view.edge_on() ? !view.in_material() : view.drawn();
 }
 
 }  // namespace sightline::internal

@@ -86,8 +86,8 @@ class EdgeFan {
                              const LineScan& scan, bool last, const Eye& eye);
 
 /// Whether a corner at which the line to the eye ends is seen as one: the lines drawn
-/// there are neither none nor one straight line, and the eye is outside its solid.  True
-/// where the line lies in the plane of a face at the corner.
+/// there are neither none nor one straight line, and the eye is outside all solids there.
+/// True from outside where the line lies in the plane of a face at the corner.
 /// Cost: the cube of the number of edges there, some of it exact.
 [[nodiscard]] bool drawn_corner(const Generators& generators, const Star& star,
                                 const Eye& eye);

@@ -279,7 +279,7 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
     }
   }
   if (cut.kind == CurveCutKind::OnFirst || cut.kind == CurveCutKind::OnPlane) {
-    if (carriers_.touched_facets[cut.feature] != 0) return true;
+    if (g_.facet_touched(cut.feature)) return true;
     // A corner w of the face is on the line iff it is in the plane of P(s) and the last
     // edge, or that of P(s) and the middle edge where the face is at the last one.
     const auto& at_last = g_.ridges()[outer.last].facets;

@@ -120,6 +120,7 @@ Generators::Generators(const Scene& scene, EventMode events, const Request& requ
   find_inside(request, stage);
   stage.begin("edges' faces");
   find_ridges(request, stage);
+  find_touched_facets();
 }
 
 void Generators::find_convex_solids() {
@@ -167,6 +168,17 @@ void Generators::find_rooms() {
   empty_room_ = empty_rooms({*scene_, face_planes_, face_tree_, object_boxes_, convex_});
   for (std::size_t o = 0; o < objects.size(); ++o) {
     if (is_room(objects[o]) && empty_room_[o] == 0) convex_[o] = 0;
+  }
+}
+
+void Generators::find_touched_facets() {
+  touched_facets_.assign(scene_->facets().size(), 0);
+  for (std::size_t e = 0; e < scene_->edges().size(); ++e) {
+    const int ridge = ridge_of_edge_[e];
+    if (ridge >= 0 && !ridges_[ridge].touched) continue;
+    for (const Edge::Side& side : scene_->edges()[e].sides) {
+      touched_facets_[scene_->faces()[side.face].facet] = 1;
+    }
   }
 }
 

@@ -177,6 +177,12 @@ class Generators {
     return outlines_[facet];
   }
 
+  /// Some side of the facet is no ridge that stands free: lines in its plane need the
+  /// general contact test.
+  [[nodiscard]] bool facet_touched(int facet) const {
+    return touched_facets_[facet] != 0;
+  }
+
   [[nodiscard]] const Bvh& face_tree() const { return face_tree_; }
   /// What blocks lines as one: a convex solid of few faces, told by its object, or a face
   /// of anything else, told by its complement (~face).
@@ -208,6 +214,7 @@ class Generators {
   void find_object_boxes();
   void find_blockers();
   void find_ridges(const Request& request, Stage& stage);
+  void find_touched_facets();
   struct EdgeFaces;  // the faces at one edge
   [[nodiscard]] EdgeFaces look_at_edge(int edge) const;
   [[nodiscard]] int extreme_half_plane(const Edge& e, const EdgeFaces& at,
@@ -249,6 +256,7 @@ class Generators {
   int inside_count_ = 0;
   std::vector<std::uint8_t> convex_;
   std::vector<std::vector<std::array<std::int32_t, 2>>> outlines_;
+  std::vector<std::uint8_t> touched_facets_;
   std::vector<std::int32_t> object_starts_, object_ids_;
   std::vector<std::uint8_t> empty_room_;  // by object
   std::shared_ptr<const SolidIndex> solids_;
