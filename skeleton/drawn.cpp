@@ -200,15 +200,13 @@ class CornerView {
     return std::ranges::any_of(objects, [&](int o) { return inside(o); });
   }
 
-  // Requires that no sector is edge-on: the line is outside all objects, and lines are
-  // drawn there, not one straight line only.
+  // Lines are drawn there, and not one straight line only.  Requires that no sector is
+  // edge-on.
   [[nodiscard]] bool drawn() const {
     std::vector<int> drawn;
     for (int r = 0; r < count(); ++r) {
       if (hidden(r, -1)) continue;
-      const EdgeFan fan = fan_at(r, -1);
-      if (fan.from_inside(eye_)) return false;
-      if (star_.along_edge[r] != 0 && fan.contact(eye_) != EdgeContact::None)
+      if (star_.along_edge[r] != 0 && fan_at(r, -1).contact(eye_) != EdgeContact::None)
         drawn.push_back(r);
     }
     const bool straight = drawn.size() == 2 && collinear(v_, at(drawn[0]), at(drawn[1]));
@@ -305,7 +303,7 @@ class CornerView {
 
 bool drawn_corner(const Generators& g, const Star& star, const Eye& eye) {
   const CornerView view(g, star, eye);
-  return view.edge_on() ? !view.in_material() : view.drawn();
+  return !view.in_material() && (view.edge_on() || view.drawn());
 }
 
 }  // namespace sightline::internal
