@@ -814,11 +814,12 @@ struct LineScan::Impl {
   void round_line(const double* a, const double* d, double a_relative_error);
   void scan(std::span<const int> faces);
 
+  [[nodiscard]] Corner seen(int point, const Point& p) const;
   int corner(int point);
   int corner_position(int corner_id);
   int edge_position(int p, int q);
   int plane_position(std::span<const int> points);
-  int add_position(Ring num, Ring den);
+  int add_position(Ring num, Ring den) const;
   int compare(int p, int q) const;
   const Rational& t(int position) const;
   [[nodiscard]] int t_against(int position, int s) const;
@@ -832,7 +833,20 @@ struct LineScan::Impl {
   [[nodiscard]] int compare_slopes(const Corner& p, const Corner& q, int position) const;
   void add_fins(const Hit& hit, const Rational* lo, const Rational* hi,
                 std::vector<Fin>& fins) const;
-  bool judge(int contact, const Rational* lo, const Rational* hi) const;
+  bool judge(int contact, const Rational* lo, const Rational* hi,
+             const std::function<bool(int)>* solid_behind = nullptr) const;
+
+  // An obstacle at a position, its sides along corners.
+  struct Material {
+    int position;
+    Corner start, end;  // counter-clockwise, at most a half turn
+  };
+  [[nodiscard]] std::vector<Material> material_at_ends(
+      int contact, const Rational& lo, const Rational& hi,
+      const std::function<bool(int)>& solid_behind) const;
+  void add_material(int contact, const Rational& t,
+                    const std::function<bool(int)>& solid_behind,
+                    std::vector<Material>& out) const;
 };
 
 void LineScan::Impl::set_line(const Point& a, const Point& b) {
@@ -961,7 +975,12 @@ int LineScan::Impl::corner(int point) {
   for (int c = static_cast<int>(corners.size()) - 1; c >= 0; --c) {
     if (corners[c].point == point) return c;
   }
-  const Point& p = scene.point(point);
+  corners.push_back(seen(point, scene.point(point)));
+  return static_cast<int>(corners.size()) - 1;
+}
+
+// A point as seen along L, under an id.
+Corner LineScan::Impl::seen(int point, const Point& p) const {
   const int i = (k + 1) % 3, j = (k + 2) % 3;
   const auto v = [&](int axis) {
     const Ring coordinate(p[axis]);
@@ -972,11 +991,10 @@ int LineScan::Impl::corner(int point) {
   Ring vk = v(k);
   Ray u(Ring(vi * direction[k]) - Ring(vk * direction[i]),
         Ring(vj * direction[k]) - Ring(vk * direction[j]));
-  corners.push_back({point, std::move(vk), std::move(u)});
-  return static_cast<int>(corners.size()) - 1;
+  return {point, std::move(vk), std::move(u)};
 }
 
-int LineScan::Impl::add_position(Ring num, Ring den) {
+int LineScan::Impl::add_position(Ring num, Ring den) const {
   if (sign_of(den) < 0) {
     num = -num;
     den = -den;
@@ -1258,7 +1276,100 @@ void LineScan::Impl::add_fins(const Hit& hit, const Rational* lo, const Rational
   }
 }
 
-bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi) const {
+// The faces in a plane with L that are met at t, which is inside their stretches, cut the
+// plane across L into cells; those that are material.
+void LineScan::Impl::add_material(int contact, const Rational& at,
+                                  const std::function<bool(int)>& solid_behind,
+                                  std::vector<Material>& out) const {
+  struct Leaf {
+    Corner corner;
+    bool after = false, before = false;  // material counter-clockwise, clockwise of it
+  };
+  std::vector<Leaf> leaves;
+  const auto opposite = [](const Corner& c) { return Corner{-1, c.v, -c.u}; };
+  const auto add = [&](Corner corner, bool after, bool before) {
+    const auto known = std::ranges::find_if(leaves, [&](const Leaf& l) {
+      return same_direction(l.corner.u, corner.u);
+    });
+    Leaf& leaf =
+        known == leaves.end() ? leaves.emplace_back(Leaf{std::move(corner)}) : *known;
+    leaf.after |= after;
+    leaf.before |= before;
+  };
+  bool any = false;
+  for (int h = first_hit[contact]; h < first_hit[contact + 1]; ++h) {
+    const Hit& hit = hits[h];
+    if (hit.obstacle != Obstacle::Barrier || t(hit.from) >= at || t(hit.to) <= at)
+      continue;
+    const bool solid = solid_behind(hit.face);
+    any |= solid;
+    const auto points = scene.face_points(hit.face);
+    const Corner& reference = corners[hit.start];
+    const std::array<Point, 3> plane{scene.point(points[0]), scene.point(points[1]),
+                                     scene.point(points[2])};
+    const Point w = point_off_plane(plane[0], plane[1], plane[2]);
+    const bool behind = orient3d(plane[0], plane[1], plane[2], w) == Sign::Negative;
+    const int turn = cross(reference.u, seen(-1, w).u);  // w's plane is not L's: not 0
+    const bool after = solid && (turn > 0) == behind;
+    const bool before = solid && !after;
+    bool ahead = false, back = false;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const int side = dot(corners[loops[hit.loop + i]].u, reference.u);
+      ahead |= side > 0;
+      back |= side < 0;
+    }
+    if (ahead) add(reference, after, before);
+    if (back) add(opposite(reference), before, after);
+  }
+  if (!any) return;
+  std::sort(leaves.begin() + 1, leaves.end(), [&](const Leaf& p, const Leaf& q) {
+    // By the turn from the first leaf: its half turn, its opposite, the other half.
+    const auto half = [&](const Leaf& l) {
+      const int side = cross(leaves[0].corner.u, l.corner.u);
+      return side > 0 ? 0 : side == 0 ? 1 : 2;
+    };
+    const int a = half(p), b = half(q);
+    return a != b ? a < b : cross(p.corner.u, q.corner.u) > 0;
+  });
+  const Rational x = at / rational(scale);
+  const int position = add_position(ring(mpq_numref(x.backend().data())),
+                                    ring(mpq_denref(x.backend().data())));
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    const Leaf& from = leaves[i];
+    const Leaf& to = leaves[(i + 1) % leaves.size()];
+    if (!from.after && !to.before) continue;
+    // Counter-clockwise: less than a half turn, a half, more, or all of it.
+    const int turn = &from == &to ? -1 : cross(from.corner.u, to.corner.u);
+    if (turn >= 0) {
+      out.push_back({position, from.corner, to.corner});
+    } else {
+      out.push_back({position, from.corner, opposite(from.corner)});
+      out.push_back({position, opposite(from.corner), to.corner});
+    }
+  }
+}
+
+// Just after lo and just before hi.
+std::vector<LineScan::Impl::Material> LineScan::Impl::material_at_ends(
+    int contact, const Rational& lo, const Rational& hi,
+    const std::function<bool(int)>& solid_behind) const {
+  Rational first = hi;
+  Rational last = lo;
+  for (int h = first_hit[contact]; h < first_hit[contact + 1]; ++h) {
+    for (const int position : {hits[h].from, hits[h].to}) {
+      const Rational& at = t(position);
+      if (lo < at && at < first) first = at;
+      if (last < at && at < hi) last = at;
+    }
+  }
+  std::vector<Material> out;
+  add_material(contact, (lo + first) / 2, solid_behind, out);
+  if (last > lo) add_material(contact, (last + hi) / 2, solid_behind, out);
+  return out;
+}
+
+bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi,
+                           const std::function<bool(int)>* solid_behind) const {
   const std::span<const Hit> mine(hits.begin() + first_hit[contact],
                                   hits.begin() + first_hit[contact + 1]);
   const auto inside = [&](int position) {
@@ -1266,17 +1377,31 @@ bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi) 
   };
   std::vector<SectorAt> sectors;
   std::vector<int> at;  // position of each sector
+  const auto add = [&](int position, const Corner* start, const Corner* end) {
+    const int instant =
+        at.empty() ? 0
+                   : sectors.back().instant + (compare(at.back(), position) != 0 ? 1 : 0);
+    sectors.push_back({instant, start, end});
+    at.push_back(position);
+  };
+  const std::vector<Material> material =
+      solid_behind != nullptr ? material_at_ends(contact, *lo, *hi, *solid_behind)
+                              : std::vector<Material>{};
+  const auto add_material_at = [&](auto&& chosen) {
+    for (const Material& m : material) {
+      if (chosen(m.position)) add(m.position, &m.start, &m.end);
+    }
+  };
+  const auto is_first = [&](int p) { return p == material.front().position; };
+  add_material_at(is_first);
   for (const Hit& h : mine) {
     hear_stop();
     if (h.obstacle != Obstacle::Full && h.obstacle != Obstacle::Sector) continue;
     if (!inside(h.from)) continue;
     if (h.obstacle == Obstacle::Full) return true;
-    const int instant =
-        at.empty() ? 0
-                   : sectors.back().instant + (compare(at.back(), h.from) != 0 ? 1 : 0);
-    sectors.push_back({instant, &corners[h.start], &corners[h.end]});
-    at.push_back(h.from);
+    add(h.from, &corners[h.start], &corners[h.end]);
   }
+  add_material_at([&](int p) { return !is_first(p); });
   // A constant w is free, or else no w is at one instant.
   if (!covers(sectors)) return false;
   const CornerTimes corner_time = [&](const Corner& c) { return corner_t(c); };
@@ -1473,6 +1598,11 @@ bool LineScan::blocked(int contact) const {
 bool LineScan::blocked_between(int contact, const Rational& lo,
                                const Rational& hi) const {
   return impl_->judge(contact, &lo, &hi);
+}
+
+bool LineScan::blocked_between(int contact, const Rational& lo, const Rational& hi,
+                               const std::function<bool(int)>& solid_behind) const {
+  return impl_->judge(contact, &lo, &hi, &solid_behind);
 }
 
 namespace {

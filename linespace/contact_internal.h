@@ -5,6 +5,7 @@
 
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -73,6 +74,12 @@ class LineScan {
   /// crossed strictly between and by the edge-on stretches cut to that part.
   [[nodiscard]] bool blocked_between(int contact, const Rational& lo,
                                      const Rational& hi) const;
+  /// The same for a line that begins at lo and ends at hi: where these are on faces in a
+  /// plane with the line, nearby lines that are in material there do not count.
+  /// `solid_behind(face)`: behind the face is material.
+  [[nodiscard]] bool blocked_between(
+      int contact, const Rational& lo, const Rational& hi,
+      const std::function<bool(int)>& solid_behind) const;
 
  private:
   struct Impl;

@@ -389,6 +389,17 @@ void orient3d_batch(const PlaneThrough& plane, std::span<const double> x,
   for (; i < x.size(); ++i) signs[i] = on(Eigen::Vector3d(x[i], y[i], z[i]));
 }
 
+Eigen::Vector3d point_off_plane(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                const Eigen::Vector3d& c) {
+  for (int i = 0; i < 3; ++i) {
+    Eigen::Vector3d w = a;
+    w[i] = a[i] != 0 ? -a[i] : 1.0;
+    if (orient3d(a, b, c, w) != Sign::Zero) return w;
+  }
+  // Not reached: the three points differ from a along the three axes.
+  return a;
+}
+
 PrecisionScope::PrecisionScope(Precision precision)
     : previous_(internal::thread_precision) {
   internal::thread_precision = precision;

@@ -58,6 +58,11 @@ struct PlaneThrough {
 [[nodiscard]] Sign orient3d(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                             const Eigen::Vector3d& c, const Eigen::Vector3d& d);
 
+/// A point off the plane abc, on one of the axis-parallel lines through a.
+[[nodiscard]] Eigen::Vector3d point_off_plane(const Eigen::Vector3d& a,
+                                              const Eigen::Vector3d& b,
+                                              const Eigen::Vector3d& c);
+
 /// On which side of line l line m passes: Positive when m turns around l by the
 /// right-hand rule, Zero exactly when the two are coplanar (they meet or are parallel).
 /// Equals orient3d(l.from, l.to, m.from, m.to).  Laws: side(l,m) == side(m,l);

@@ -12,17 +12,6 @@ namespace {
 
 double norm1(const Point& p) { return p.cwiseAbs().sum(); }
 
-// A point off the plane through a, b, c, which are not on one line.
-Point off_plane(const Point& a, const Point& b, const Point& c) {
-  for (int i = 0; i < 3; ++i) {
-    Point w = a;
-    w[i] = a[i] > 0 ? -a[i] : a[i] < 0 ? -a[i] : 1.0;
-    if (orient3d(a, b, c, w) != Sign::Zero) return w;
-  }
-  // Not reached: the three points differ from a along the three axes.
-  return a;
-}
-
 }  // namespace
 
 Eye::Eye(ExactPoint at)
@@ -45,7 +34,7 @@ void EdgeFan::add_half(int face, std::int32_t third, bool own) {
   const Face& f = scene_.faces()[face];
   Leaf leaf{third, f.facet, false, false, own};
   if (g_.solid_behind(face)) {
-    const Point w = off_plane(e0_, e1_, scene_.point(third));
+    const Point w = point_off_plane(e0_, e1_, scene_.point(third));
     const bool after = orient3d(e0_, e1_, scene_.point(third), w) == Sign::Positive;
     const bool behind = g_.face_plane(face)(w) == Sign::Negative;
     (after == behind ? leaf.solid_after : leaf.solid_before) = true;
@@ -75,7 +64,7 @@ EdgeFan::Angle EdgeFan::angle(const Leaf& from, const Leaf& to) const {
   const Point& q = scene_.point(to.third);
   const Sign s = orient3d(e0_, e1_, p, q);
   if (s != Sign::Zero) return s == Sign::Positive ? Angle::FirstHalf : Angle::SecondHalf;
-  const Point w = off_plane(e0_, e1_, p);
+  const Point w = point_off_plane(e0_, e1_, p);
   const bool same = orient3d(e0_, e1_, w, p) == orient3d(e0_, e1_, w, q);
   return same ? Angle::Same : Angle::Opposite;
 }
@@ -130,8 +119,9 @@ std::optional<EdgeContact> EdgeFan::look(const Eye& eye) const {
     const Point& p = scene_.point(leaves_[i].third);
     side.push_back(eye.side(e0_, e1_, p));
     if (side.back() != Sign::Zero) continue;
-    const Point w = off_plane(e0_, e1_, p);
+    const Point w = point_off_plane(e0_, e1_, p);
     if (eye.side(e0_, e1_, w) != orient3d(e0_, e1_, w, p)) continue;
+    if (!sectors_[i].free && !sectors_[(i + n - 1) % n].free) return std::nullopt;
     return ends_along(i) ? EdgeContact::End : EdgeContact::Graze;
   }
   for (const Sector& s : sectors_) {

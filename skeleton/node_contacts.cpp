@@ -117,15 +117,17 @@ bool blocks_segment(const LineScan& scan, int contact) {
 }
 
 // Whether it blocks the part (0, 1) together with what it meets at one of its ends.
-bool blocks_with_end(const LineScan& scan, int contact, bool at_one) {
+bool blocks_with_end(const Generators& g, const LineScan& scan, int contact,
+                     bool at_one) {
   Rational low = at_one ? 0 : -1;
   Rational high = at_one ? 2 : 1;
   for (const Rational& t : scan.instants(contact)) {
     if (!at_one && t < 0 && t > low) low = t;
     if (at_one && t > 1 && t < high) high = t;
   }
-  return at_one ? scan.blocked_between(contact, 0, (high + 1) / 2)
-                : scan.blocked_between(contact, low / 2, 1);
+  const auto solid = [&](int face) { return g.solid_behind(face); };
+  return at_one ? scan.blocked_between(contact, 0, (high + 1) / 2, solid)
+                : scan.blocked_between(contact, low / 2, 1, solid);
 }
 
 // Two faces of closed objects on the line at t lie on each other front to front: the line
@@ -457,6 +459,7 @@ bool free_between(const LineScan& scan) {
 std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
                                                 const LineScan& scan) {
   std::array<bool, 2> ends{};
+  const auto solid = [&](int face) { return g.solid_behind(face); };
   for (int i = 0; i < scan.size(); ++i) {
     if (!meets_segment(scan, i)) continue;
     if (scan.is_point(i)) {
@@ -474,9 +477,9 @@ std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
     const bool at_0 = scan.from_against(i, 0) <= 0;
     const bool at_1 = scan.to_against(i, 1) >= 0;
     const bool inside = scan.to_against(i, 0) > 0 && scan.from_against(i, 1) < 0;
-    if (inside && scan.blocked_between(i, 0, 1)) return std::nullopt;
-    const bool first = at_0 && !beyond[0] && blocks_with_end(scan, i, false);
-    const bool last = at_1 && !beyond[1] && blocks_with_end(scan, i, true);
+    if (inside && scan.blocked_between(i, 0, 1, solid)) return std::nullopt;
+    const bool first = at_0 && !beyond[0] && blocks_with_end(g, scan, i, false);
+    const bool last = at_1 && !beyond[1] && blocks_with_end(g, scan, i, true);
     // Neither alone but both together.
     const bool together = !first && !last && !beyond[0] && !beyond[1];
     ends[0] |= first || (at_0 && together);
