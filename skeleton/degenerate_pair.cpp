@@ -36,7 +36,7 @@ std::uint32_t add_node_at(const Generators& g, const Point& v, const ExactPoint&
 std::optional<std::array<bool, 2>> open_state(const Generators& g, const Ridge& ridge,
                                               const LineScan& scan) {
   if (!g.polygon()) {
-    return is_free(scan) ? std::optional(std::array<bool, 2>{}) : std::nullopt;
+    return is_free(g, scan) ? std::optional(std::array<bool, 2>{}) : std::nullopt;
   }
   const auto ends = blocked_ends(g, scan);
   if (ends && !((*ends)[1] ? ridge.can_end() : ridge.can_graze())) return std::nullopt;

@@ -377,7 +377,8 @@ class EdgeOnView {
       w[kept_[i]] = x_[kept_[i]] + step;
       w[axis_] += slope_[i] * step;
     }
-    return free_between(LineScan(scene_, faces_near_line(g_, near_, rounded(w)), x_, w));
+    return free_between(g_,
+                        LineScan(scene_, faces_near_line(g_, near_, rounded(w)), x_, w));
   }
 
   const Generators& g_;

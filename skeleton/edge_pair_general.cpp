@@ -87,7 +87,7 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
                             bool drawn) -> State {
     if (!line) return std::nullopt;
     const LineScan scan(scene_, faces, (*line)[0], (*line)[1]);
-    if (!g_.polygon()) return is_free(scan) ? State(stretch.ends) : std::nullopt;
+    if (!g_.polygon()) return is_free(g_, scan) ? State(stretch.ends) : std::nullopt;
     const State ends = blocked_ends(g_, scan);
     const bool possible = ends && ((*ends)[0] ? first.can_end() : first.can_graze()) &&
                           ((*ends)[1] ? last.can_end() : last.can_graze());

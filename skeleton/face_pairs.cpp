@@ -199,8 +199,8 @@ void FacePairs::visit_pair(int f, int g, std::vector<FoundFacePair>& out) {
                                  ? intervals_[i + 1].to
                                  : intervals_[i].to;
       if (surely_blocked(from, to)) return false;
-      return is_free(
-          LineScan(scene_, faces_near_line(g_, rounded(from), rounded(to)), from, to));
+      return is_free(g_, LineScan(scene_, faces_near_line(g_, rounded(from), rounded(to)),
+                                  from, to));
     }();
     if (goes_on) continue;
     const auto end = intervals_.begin() + static_cast<std::ptrdiff_t>(i) + 1;

@@ -100,20 +100,26 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
   return found;
 }
 
+// Whether the contact blocks a part of the line that begins and ends outside material.
+bool blocks_part(const Generators& g, const LineScan& scan, int contact,
+                 const Rational& lo, const Rational& hi) {
+  return scan.blocked_between(contact, lo, hi,
+                              [&](int face) { return g.solid_behind(face); });
+}
+
 // Whether the contact blocks the closed segment [0, 1] of the line.  What the contact
 // meets beyond the segment's ends does not count, what it meets at them does: the part
 // judged ends between there and the next instant outside.
-bool blocks_segment(const LineScan& scan, int contact) {
-  // A line past all of the contact passes a part of it.
-  if (!scan.blocked(contact)) return false;
-  if (scan.from_against(contact, 0) >= 0 && scan.to_against(contact, 1) <= 0) return true;
+bool blocks_segment(const Generators& g, const LineScan& scan, int contact) {
+  if (scan.from_against(contact, 0) >= 0 && scan.to_against(contact, 1) <= 0)
+    return scan.blocked(contact);
   Rational low = -1;
   Rational high = 2;
   for (const Rational& t : scan.instants(contact)) {
     if (t < 0 && t > low) low = t;
     if (t > 1 && t < high) high = t;
   }
-  return scan.blocked_between(contact, low / 2, (high + 1) / 2);
+  return blocks_part(g, scan, contact, low / 2, (high + 1) / 2);
 }
 
 // Whether it blocks the part (0, 1) together with what it meets at one of its ends.
@@ -125,9 +131,8 @@ bool blocks_with_end(const Generators& g, const LineScan& scan, int contact,
     if (!at_one && t < 0 && t > low) low = t;
     if (at_one && t > 1 && t < high) high = t;
   }
-  const auto solid = [&](int face) { return g.solid_behind(face); };
-  return at_one ? scan.blocked_between(contact, 0, (high + 1) / 2, solid)
-                : scan.blocked_between(contact, low / 2, 1, solid);
+  return at_one ? blocks_part(g, scan, contact, 0, (high + 1) / 2)
+                : blocks_part(g, scan, contact, low / 2, 1);
 }
 
 // Two faces of closed objects on the line at t lie on each other front to front: the line
@@ -191,26 +196,27 @@ bool meets_segment(const LineScan& scan, int contact) {
 
 // The segment comes into a part of the contact, if it comes from where it begins (step
 // 1) or ends (-1).
-bool is_entered(const LineScan& scan, int contact, int step) {
+bool is_entered(const Generators& g, const LineScan& scan, int contact, int step) {
   if (scan.is_point(contact)) return false;
   const std::vector<Rational> at = scan.instants(contact);
   const std::size_t n = at.size();
-  return step > 0 ? !scan.blocked_between(contact, at[0] - 1, at[1])
-                  : !scan.blocked_between(contact, at[n - 2], at[n - 1] + 1);
+  return step > 0 ? !blocks_part(g, scan, contact, at[0] - 1, at[1])
+                  : !blocks_part(g, scan, contact, at[n - 2], at[n - 1] + 1);
 }
 
 // Where the free segment around the middle of [0, 1] stops in a contact that it meets on
 // its way back (step -1) or on (1); nullopt where it passes.
-std::optional<Rational> stop_in(const LineScan& scan, int contact, int step) {
-  return blocked_beyond(scan, contact, Rational(1, 2), step);
+std::optional<Rational> stop_in(const Generators& g, const LineScan& scan, int contact,
+                                int step) {
+  return blocked_beyond(g, scan, contact, Rational(1, 2), step);
 }
 
 // The last contact that the maximal free segment meets, from one that it meets on.
-int last_contact(const LineScan& scan, int contact, int step) {
-  while (!stop_in(scan, contact, step)) {
+int last_contact(const Generators& g, const LineScan& scan, int contact, int step) {
+  while (!stop_in(g, scan, contact, step)) {
     const int next = contact + step;
     if (next < 0 || next >= scan.size()) break;
-    if (scan.blocked(next) && !is_entered(scan, next, step)) break;
+    if (scan.blocked(next) && !is_entered(g, scan, next, step)) break;
     contact = next;
   }
   return contact;
@@ -419,8 +425,8 @@ std::vector<int> faces_near_line(const Generators& g, const Point& a, const Poin
   return found;
 }
 
-std::optional<Rational> blocked_beyond(const LineScan& scan, int contact,
-                                       const Rational& start, int step) {
+std::optional<Rational> blocked_beyond(const Generators& g, const LineScan& scan,
+                                       int contact, const Rational& start, int step) {
   if (!scan.blocked(contact)) return std::nullopt;
   if (scan.is_point(contact)) {
     const Rational& t = scan.from(contact);
@@ -433,25 +439,25 @@ std::optional<Rational> blocked_beyond(const LineScan& scan, int contact,
     if (step > 0 ? t <= start : start <= t) continue;
     const Rational beyond =
         i + 1 < at.size() ? Rational((t + at[i + 1]) / 2) : Rational(t + step);
-    const bool blocked = step > 0 ? scan.blocked_between(contact, start, beyond)
-                                  : scan.blocked_between(contact, beyond, start);
+    const bool blocked = step > 0 ? blocks_part(g, scan, contact, start, beyond)
+                                  : blocks_part(g, scan, contact, beyond, start);
     if (blocked) return t;
   }
   return std::nullopt;
 }
 
-bool is_free(const LineScan& scan) {
+bool is_free(const Generators& g, const LineScan& scan) {
   for (int i = 0; i < scan.size(); ++i) {
-    if (meets_segment(scan, i) && blocks_segment(scan, i)) return false;
+    if (meets_segment(scan, i) && blocks_segment(g, scan, i)) return false;
   }
   return true;
 }
 
-bool free_between(const LineScan& scan) {
+bool free_between(const Generators& g, const LineScan& scan) {
   for (int c = 0; c < scan.size(); ++c) {
     if (scan.to_against(c, 0) <= 0 || scan.from_against(c, 1) >= 0) continue;
     const bool within = scan.from_against(c, 0) > 0 && scan.to_against(c, 1) < 0;
-    if (within ? scan.blocked(c) : scan.blocked_between(c, 0, 1)) return false;
+    if (within ? scan.blocked(c) : blocks_part(g, scan, c, 0, 1)) return false;
   }
   return true;
 }
@@ -459,7 +465,6 @@ bool free_between(const LineScan& scan) {
 std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
                                                 const LineScan& scan) {
   std::array<bool, 2> ends{};
-  const auto solid = [&](int face) { return g.solid_behind(face); };
   for (int i = 0; i < scan.size(); ++i) {
     if (!meets_segment(scan, i)) continue;
     if (scan.is_point(i)) {
@@ -469,7 +474,7 @@ std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
       ends[at_0 ? 0 : 1] = true;
       continue;
     }
-    if (!blocks_segment(scan, i)) continue;
+    if (!blocks_segment(g, scan, i)) continue;
     const Pressed pressed = pressed_parts(g, scan, i);
     if (pressed.inside) return std::nullopt;
     const std::array<bool, 2> beyond = pressed.beyond;
@@ -477,7 +482,7 @@ std::optional<std::array<bool, 2>> blocked_ends(const Generators& g,
     const bool at_0 = scan.from_against(i, 0) <= 0;
     const bool at_1 = scan.to_against(i, 1) >= 0;
     const bool inside = scan.to_against(i, 0) > 0 && scan.from_against(i, 1) < 0;
-    if (inside && scan.blocked_between(i, 0, 1, solid)) return std::nullopt;
+    if (inside && blocks_part(g, scan, i, 0, 1)) return std::nullopt;
     const bool first = at_0 && !beyond[0] && blocks_with_end(g, scan, i, false);
     const bool last = at_1 && !beyond[1] && blocks_with_end(g, scan, i, true);
     // Neither alone but both together.
@@ -494,7 +499,7 @@ NodeContacts contacts_between(const Generators& g, const LineScan& scan) {
   bool free = true;
   for (int i = 0; i < scan.size(); ++i) {
     if (!meets_segment(scan, i)) continue;
-    free = free && !blocks_segment(scan, i);
+    free = free && !blocks_segment(g, scan, i);
     groups.push_back(generators_of(g, scan, i));
     contacts.push_back(i);
   }
@@ -519,13 +524,13 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   // Polygon mode: the contacts at which the line ends, and beyond which nothing is seen.
   std::array<bool, 2> stops_at{};
   if (polygon && !grazes && end) {
-    stops_at = blocked_ends(g, scan).value_or(
-        std::array<bool, 2>{blocks_segment(scan, first), blocks_segment(scan, last)});
+    stops_at = blocked_ends(g, scan).value_or(std::array<bool, 2>{
+        blocks_segment(g, scan, first), blocks_segment(g, scan, last)});
   }
   const auto go_on = [&](int contact, int step) {
-    const int at = last_contact(scan, contact, step);
+    const int at = last_contact(g, scan, contact, step);
     const int next = at + step;
-    if (!polygon || grazes || stop_in(scan, at, step)) return at;
+    if (!polygon || grazes || stop_in(g, scan, at, step)) return at;
     const bool ends = next >= 0 && next < scan.size() && scan.blocked(next) &&
                       !generators_of(g, scan, next).empty();
     return ends ? next : at;
@@ -534,7 +539,7 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
   if (!stops_at[1]) last = go_on(last, 1);
   std::vector<std::vector<Generator>> groups;
   // What lies behind the foot of a wall, in the plane of another, is not reached.
-  const Reach reach{line, stop_in(scan, first, -1), stop_in(scan, last, 1)};
+  const Reach reach{line, stop_in(g, scan, first, -1), stop_in(g, scan, last, 1)};
   std::vector<int> contacts;
   for (int c = first; c <= last; ++c) {
     groups.push_back(generators_of(g, scan, c, &reach));
@@ -575,7 +580,7 @@ LineContacts contacts_of_line(const Generators& g, KnownLines& known,
   LineContacts found;
   if (question.end) {
     found.end = *question.end;
-  } else if (!is_free(scan)) {
+  } else if (!is_free(g, scan)) {
     found.between = contacts_between(g, scan);
     found.end = found.between->end;
   }

@@ -28,14 +28,16 @@ namespace sightline::internal {
 /// Where a contact blocks the line beyond position `start`, going up or down (`step` 1 or
 /// -1): the first instant past which the part from `start` on is blocked; nullopt where
 /// the line passes.  Requires that the contact does not block before `start`.
-[[nodiscard]] std::optional<Rational> blocked_beyond(const LineScan& scan, int contact,
+[[nodiscard]] std::optional<Rational> blocked_beyond(const Generators& generators,
+                                                     const LineScan& scan, int contact,
                                                      const Rational& start, int step);
 
 /// No contact blocks the closed segment [0, 1] of the line.
-[[nodiscard]] bool is_free(const LineScan& scan);
+[[nodiscard]] bool is_free(const Generators& generators, const LineScan& scan);
 
 /// No contact blocks the open part of the line between its positions 0 and 1.
-[[nodiscard]] bool free_between(const LineScan& scan);
+[[nodiscard]] bool free_between(const Generators& generators,
+                                const LineScan& scan);
 
 /// Whether the contact at 0, that at 1 blocks the closed segment [0, 1]; nullopt when
 /// some contact blocks it strictly in between.

@@ -26,7 +26,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // The free segment through positions 0 and 1, which is free itself but for the contacts
 // at 0 and at 1 where `ends` says that it ends there.
-FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends = {}) {
+FreeSegment free_segment(const internal::Generators& g, const LineScan& scan,
+                         const std::array<bool, 2>& ends = {}) {
   FreeSegment out{-kInfinity, kInfinity, {}, {}, {}};
   const auto add = [&](int c) {
     out.contacts.push_back({scan.from(c).convert_to<double>(),
@@ -46,7 +47,7 @@ FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends =
       break;
     }
     if (through) {
-      const auto t = scan.from(c) < 0 ? blocked_beyond(scan, c, 0, -1) : std::nullopt;
+      const auto t = scan.from(c) < 0 ? blocked_beyond(g, scan, c, 0, -1) : std::nullopt;
       if (t) {
         out.from = t->convert_to<double>();
         out.from_faces = scan.faces_at(c, *t);
@@ -54,7 +55,7 @@ FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends =
       }
       continue;
     }
-    if (const auto t = blocked_beyond(scan, c, 0, -1)) {
+    if (const auto t = blocked_beyond(g, scan, c, 0, -1)) {
       out.from = t->convert_to<double>();
       out.from_faces = scan.faces_at(c, *t);
       if (*t < scan.to(c)) before.push_back(c);  // along a wall to the foot of another
@@ -73,7 +74,7 @@ FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends =
     }
     if (scan.from(c) <= 1) {
       add(c);
-      const auto t = scan.to(c) > 1 ? blocked_beyond(scan, c, 1, 1) : std::nullopt;
+      const auto t = scan.to(c) > 1 ? blocked_beyond(g, scan, c, 1, 1) : std::nullopt;
       if (t) {
         out.to = t->convert_to<double>();
         out.to_faces = scan.faces_at(c, *t);
@@ -81,7 +82,7 @@ FreeSegment free_segment(const LineScan& scan, const std::array<bool, 2>& ends =
       }
       continue;
     }
-    if (const auto t = blocked_beyond(scan, c, 1, 1)) {
+    if (const auto t = blocked_beyond(g, scan, c, 1, 1)) {
       out.to = t->convert_to<double>();
       out.to_faces = scan.faces_at(c, *t);
       if (scan.from(c) < *t) add(c);
@@ -106,7 +107,7 @@ struct SkeletonLines::Impl {
   [[nodiscard]] FreeSegment line(const ExactPoint& a, const ExactPoint& b,
                                  const std::array<bool, 2>& ends) const {
     const auto faces = faces_near_line(generators, rounded(a), rounded(b));
-    return free_segment(LineScan(scene, faces, a, b), ends);
+    return free_segment(generators, LineScan(scene, faces, a, b), ends);
   }
   [[nodiscard]] ExactPoint point(int id) const {
     return internal::exact_point(scene.point(id));
@@ -157,7 +158,7 @@ struct SkeletonLines::Impl {
       if (!blocked) return std::nullopt;
       ends = *blocked;
     }
-    return free_segment(scan, ends);
+    return free_segment(generators, scan, ends);
   }
 
   // The node's outermost contacts are rounded: of all positions at which a face begins or
@@ -326,9 +327,10 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) 
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     const double middle = stops[i] + 0.5 * (stops[i + 1] - stops[i]);
     if (!(middle > stops[i] && middle < stops[i + 1])) continue;
-    Piece piece{{stops[i], stops[i + 1]},
-                free_segment(LineScan(scene, faces, eye, along(x0, x1, Rational(middle))),
-                             arc.ends)};
+    Piece piece{
+        {stops[i], stops[i + 1]},
+        free_segment(g, LineScan(scene, faces, eye, along(x0, x1, Rational(middle))),
+                     arc.ends)};
     if (!pieces.empty() && pieces.back().line.from_faces == piece.line.from_faces &&
         pieces.back().line.to_faces == piece.line.to_faces) {
       pieces.back().range[1] = stops[i + 1];

@@ -227,9 +227,10 @@ struct ViewEvents::Impl {
     };
     const LineScan between = scan(v, contact);
     const bool as_arc = arc.ends == std::array<bool, 2>{}
-                            ? is_free(between)
+                            ? is_free(generators, between)
                             : blocked_ends(generators, between) == arc.ends;
-    const bool free = as_arc && free_between(scan(side == 1 ? contact : v, x));
+    const bool free =
+        as_arc && free_between(generators, scan(side == 1 ? contact : v, x));
     return free ? Answer::Yes : Answer::No;
   }
 
@@ -359,10 +360,11 @@ struct ViewEvents::Impl {
     const LineScan between = scan(first, last);
     const std::array<bool, 2> outer{triple.ends[0], triple.ends[2]};
     const bool as_arc = outer == std::array<bool, 2>{}
-                            ? is_free(between)
+                            ? is_free(generators, between)
                             : blocked_ends(generators, between) == outer;
     const ExactPoint x = point_on(path.line());
-    const bool free = as_arc && free_between(scan(side == 1 ? last : first, x));
+    const bool free =
+        as_arc && free_between(generators, scan(side == 1 ? last : first, x));
     return free ? Answer::Yes : Answer::No;
   }
 
