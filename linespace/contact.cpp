@@ -1353,6 +1353,12 @@ void LineScan::Impl::add_material(int contact, const Rational& at,
 std::vector<LineScan::Impl::Material> LineScan::Impl::material_at_ends(
     int contact, const Rational& lo, const Rational& hi,
     const std::function<bool(int)>& solid_behind) const {
+  const bool along_solid = std::any_of(
+      hits.begin() + first_hit[contact], hits.begin() + first_hit[contact + 1],
+      [&](const Hit& h) {
+        return h.obstacle == Obstacle::Barrier && solid_behind(h.face);
+      });
+  if (!along_solid) return {};
   Rational first = hi;
   Rational last = lo;
   for (int h = first_hit[contact]; h < first_hit[contact + 1]; ++h) {
