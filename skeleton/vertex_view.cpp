@@ -128,9 +128,7 @@ StarContact star_contact(const Scene& scene, const Star& star, const Point& x) {
   for (const auto& sector : star.sectors) {
     if (turn[sector.from * n + sector.to] == 0) return StarContact::Degenerate;
   }
-  // Two rays that look alike along the line but are no one sector's: their sectors share
-  // a boundary in the picture, which leaves no gap; equal or opposite is told apart by
-  // any third ray.
+  // Two rays may look alike along the line; equal or opposite is told apart by any third.
   const auto same = [&](std::size_t i, std::size_t j) {
     if (i == j) return true;
     if (turn[i * n + j] != 0) return false;
@@ -152,7 +150,14 @@ StarContact star_contact(const Scene& scene, const Star& star, const Point& x) {
     }
     if (!covered) return StarContact::Grazes;
   }
-  return star.sectors.empty() ? StarContact::Grazes : StarContact::Blocked;
+  if (star.sectors.empty()) return StarContact::Grazes;
+  // Between rays that only look alike a line may pass, to second order.
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      if (same(i, j)) return StarContact::Degenerate;
+    }
+  }
+  return StarContact::Blocked;
 }
 
 VertexViewer::VertexViewer(const Generators& generators, const EvPart& part,
