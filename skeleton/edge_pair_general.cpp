@@ -107,7 +107,7 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
     const auto line = s ? curve.points_at(*s) : std::nullopt;
     State here = state_of(line, true);
     // Between parts of two edges that enter a solid all of a segment is inside.
-    if (here && !begin && first.touched && last.touched &&
+    if (here && first.touched && last.touched &&
         g_.in_material(along((*line)[0], (*line)[1], Rational(1, 2)))) {
       here.reset();
     }
