@@ -182,12 +182,12 @@ class CornerView {
     return std::ranges::any_of(star_.sectors, [&](const auto& s) { return edge_on(s); });
   }
 
-  // The line is strictly inside a closed object there.
+  // The line is strictly inside a closed shell there.
   [[nodiscard]] bool in_material() const {
-    std::vector<std::int32_t> objects;
-    for (const Star::Sector& s : star_.sectors) objects.push_back(object_of(s));
-    sort_unique(objects);
-    return std::ranges::any_of(objects, [&](int o) { return inside(o); });
+    std::vector<std::int32_t> shells;
+    for (const Star::Sector& s : star_.sectors) shells.push_back(shell_of(s));
+    sort_unique(shells);
+    return std::ranges::any_of(shells, [&](int shell) { return inside(shell); });
   }
 
   // Lines are drawn there, and not one straight line only.  Requires that no sector is
@@ -212,8 +212,8 @@ class CornerView {
   [[nodiscard]] Sign turn(int i, int j) const {
     return turns_[static_cast<std::size_t>(i) * count() + j];
   }
-  [[nodiscard]] int object_of(const Star::Sector& s) const {
-    return g_.scene().facets()[s.facet].object;
+  [[nodiscard]] int shell_of(const Star::Sector& s) const {
+    return g_.shell(g_.scene().facets()[s.facet].faces[0]);
   }
   [[nodiscard]] bool on_line(int ray) const {
     for (int other = 0; other < count(); ++other) {
@@ -245,16 +245,16 @@ class CornerView {
            left_of(v_, at(ray), at(s.to)) == turns;
   }
 
-  // By the sectors of an object, or of all (-1).
-  [[nodiscard]] bool hidden(int ray, int object) const {
+  // By the sectors of a shell, or of all (-1).
+  [[nodiscard]] bool hidden(int ray, int shell) const {
     return std::ranges::any_of(star_.sectors, [&](const Star::Sector& s) {
-      return (object < 0 || object_of(s) == object) && hides(s, ray);
+      return (shell < 0 || shell_of(s) == shell) && hides(s, ray);
     });
   }
-  [[nodiscard]] EdgeFan fan_at(int ray, int object) const {
+  [[nodiscard]] EdgeFan fan_at(int ray, int shell) const {
     EdgeFan fan(g_, v_, at(ray));
     for (const Star::Sector& s : star_.sectors) {
-      if (object >= 0 && object_of(s) != object) continue;
+      if (shell >= 0 && shell_of(s) != shell) continue;
       const int face = g_.scene().facets()[s.facet].faces[0];
       if (s.from == ray || s.to == ray) {
         fan.add_half(face, star_.rays[s.from == ray ? s.to : s.from]);
@@ -267,16 +267,16 @@ class CornerView {
     return fan;
   }
 
-  // Of the rays on an object that nothing of it hides each tells whether the line is
+  // Of the rays on a shell that nothing of it hides each tells whether the line is
   // inside.  They agree, but where it runs along a face: that has the inside on one side.
-  [[nodiscard]] bool inside(int object) const {
+  [[nodiscard]] bool inside(int shell) const {
     bool inside = false;
     for (int r = 0; r < count(); ++r) {
       const bool own = std::ranges::any_of(star_.sectors, [&](const Star::Sector& s) {
-        return object_of(s) == object && (s.from == r || s.to == r);
+        return shell_of(s) == shell && (s.from == r || s.to == r);
       });
-      if (!own || on_line(r) || hidden(r, object)) continue;
-      if (!fan_at(r, object).from_inside(eye_)) return false;
+      if (!own || on_line(r) || hidden(r, shell)) continue;
+      if (!fan_at(r, shell).from_inside(eye_)) return false;
       inside = true;
     }
     return inside;

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <optional>
 
+#include "linespace/scene_internal.h"
 #include "linespace/solid_index_internal.h"
 #include "linespace/stop_scope_internal.h"
 #include "skeleton/generators_internal.h"
@@ -112,6 +113,7 @@ Generators::Generators(const Scene& scene, EventMode events, const Request& requ
   find_object_boxes();
   find_convex_solids();
   find_rooms();
+  find_shells();
   find_blockers();
   find_outlines();
   stage.begin("corners' faces");
@@ -168,6 +170,19 @@ void Generators::find_rooms() {
   empty_room_ = empty_rooms({*scene_, face_planes_, face_tree_, object_boxes_, convex_});
   for (std::size_t o = 0; o < objects.size(); ++o) {
     if (is_room(objects[o]) && empty_room_[o] == 0) convex_[o] = 0;
+  }
+}
+
+void Generators::find_shells() {
+  DisjointSets sets(scene_->faces().size());
+  for (const Edge& e : scene_->edges()) {
+    for (const Edge::Side& side : e.sides) sets.unite(side.face, e.sides[0].face);
+  }
+  for (const Facet& facet : scene_->facets()) {
+    for (const int f : facet.faces) sets.unite(f, facet.faces[0]);
+  }
+  for (std::size_t f = 0; f < scene_->faces().size(); ++f) {
+    shells_.push_back(static_cast<std::int32_t>(sets.find(static_cast<int>(f))));
   }
 }
 

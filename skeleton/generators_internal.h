@@ -166,6 +166,8 @@ class Generators {
   [[nodiscard]] bool solid_behind(int face) const {
     return scene_->solid_behind(face) || empty_room_[scene_->faces()[face].object] != 0;
   }
+  /// Number of the part of an object that a face is of: faces that hang together by edges.
+  [[nodiscard]] int shell(int face) const { return shells_[face]; }
   /// Closed, bounded inside, and convex up to folds along edges declared flat; no room
   /// with something in it, nor around one.
   [[nodiscard]] bool convex_solid(int object) const { return convex_[object] != 0; }
@@ -215,6 +217,7 @@ class Generators {
   void find_blockers();
   void find_ridges(const Request& request, Stage& stage);
   void find_touched_facets();
+  void find_shells();
   struct EdgeFaces;  // the faces at one edge
   [[nodiscard]] EdgeFaces look_at_edge(int edge) const;
   [[nodiscard]] int extreme_half_plane(const Edge& e, const EdgeFaces& at,
@@ -257,6 +260,7 @@ class Generators {
   std::vector<std::uint8_t> convex_;
   std::vector<std::vector<std::array<std::int32_t, 2>>> outlines_;
   std::vector<std::uint8_t> touched_facets_;
+  std::vector<std::int32_t> shells_;  // by face
   std::vector<std::int32_t> object_starts_, object_ids_;
   std::vector<std::uint8_t> empty_room_;  // by object
   std::shared_ptr<const SolidIndex> solids_;
