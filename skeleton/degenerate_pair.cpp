@@ -234,6 +234,11 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
                               bool between) -> std::optional<std::array<bool, 2>> {
       const LineScan scan(scene, faces, from, x);
       const auto state = open_state(g, ridge, scan);
+      // Between a corner and an edge that others touch all of a segment may be inside.
+      if (between && state && star.touched && ridge.touched &&
+          g.in_material(along(from, x, Rational(1, 2)))) {
+        return std::nullopt;
+      }
       if (!state || !((*state)[0] || (*state)[1])) {
         return inside_face ? std::nullopt : state;
       }

@@ -405,6 +405,11 @@ class Cutter {
     for (PolygonSoup::Group& group : soup_.groups) {
       own_ = points_of(group);
       std::map<std::vector<int>, std::vector<std::vector<int>>> done;  // copies alike
+      std::set<std::vector<int>> made;  // by corners; never the same twice
+      const auto is_new_piece = [&](std::vector<int> piece) {
+        std::ranges::sort(piece);
+        return made.insert(piece).second;
+      };
       std::vector<int> faces = group.faces;
       for (const int f : faces) {
         const std::vector<int> face = soup_.polygons[f];
@@ -412,6 +417,7 @@ class Cutter {
         std::ranges::sort(key);
         auto [at, is_new] = done.try_emplace(key);
         if (is_new && random_.one_in(share)) at->second = cut(face);
+        if (is_new && !std::ranges::all_of(at->second, is_new_piece)) at->second.clear();
         if (at->second.empty()) continue;
         std::vector<std::vector<int>> pieces = at->second;
         if (turned(face, pieces[0])) {
