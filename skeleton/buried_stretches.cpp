@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <map>
 
 #include "skeleton/buried_stretches_internal.h"
 #include "skeleton/edge_cuts_internal.h"
 #include "skeleton/generators_internal.h"
+#include "skeleton/node_contacts_internal.h"
 #include "skeleton/plane_values_internal.h"
 
 namespace sightline::internal {
@@ -17,52 +17,39 @@ std::array<double, 2> visible_range(std::span<const BuriedStretch> buried) {
   return range;
 }
 
-// The faces pierce the open edge.  Between two points where it passes faces, an edge is
-// either in material all along or nowhere.  So it is up to the first of them where its
-// first end is, from the last one on where its second end is, and between the two points
-// where it enters and leaves a convex solid.
+// The faces pierce the open edge.  Between two neighbouring points where it passes faces,
+// or one and an end of it, an edge is either in material all along or nowhere.
 std::vector<BuriedStretch> Generators::buried_stretches(
     std::array<std::int32_t, 2> points, std::span<const std::int32_t> pierced_by) const {
+  if (pierced_by.empty()) return {};
   const Point& e0 = scene_->point(points[0]);
   const Point& e1 = scene_->point(points[1]);
   const LineThrough line{e0, e1};
   struct Hit {
     Cut cut;
     int face;
-  };
-  const auto before = [&](const Hit& a, const Hit& b) {
-    return compare(*scene_, line, a.cut, b.cut) == Sign::Negative;
+    Rational at;
   };
   std::vector<Hit> hits;
-  std::map<int, BuriedStretch> inside;  // by convex solid
   for (const int face : pierced_by) {
     const PlaneValues v = plane_values(face_planes_[face], e0, e1);
-    const Hit hit{make_cut(CutKind::Pierce, scene_->faces()[face].facet,
-                           plane_points(*scene_, face), v.at0, v.at1),
-                  face};
-    hits.push_back(hit);
-    const int object = scene_->faces()[face].object;
-    if (!convex_solid(object)) continue;
-    BuriedStretch& b =
-        inside.try_emplace(object, BuriedStretch{-1, -1, 0, 1}).first->second;
-    if (v.sign0 == Sign::Positive) {
-      b.from = face;
-      b.low = hit.cut.hi;
-    } else {
-      b.to = face;
-      b.high = hit.cut.lo;
-    }
+    const Cut cut = make_cut(CutKind::Pierce, scene_->faces()[face].facet,
+                             plane_points(*scene_, face), v.at0, v.at1);
+    hits.push_back({cut, face, exact_parameter(*scene_, line, cut)});
   }
+  std::ranges::sort(hits, {}, &Hit::at);
   std::vector<BuriedStretch> buried;
-  for (const auto& [object, stretch] : inside) buried.push_back(stretch);
-  if (hits.empty()) return buried;
-  const auto [first, last] = std::minmax_element(hits.begin(), hits.end(), before);
-  const auto [from, to] = visible_range(buried);
-  if (from == 0 && inside_material(points[0])) {
-    buried.push_back({-1, first->face, 0, first->cut.lo});
-  }
-  if (to == 1 && inside_material(points[1])) {
-    buried.push_back({last->face, -1, last->cut.hi, 1});
+  const ExactPoint x0 = exact_point(e0);
+  const ExactPoint x1 = exact_point(e1);
+  for (std::size_t i = 0; i <= hits.size(); ++i) {
+    const Hit* from = i == 0 ? nullptr : &hits[i - 1];
+    const Hit* to = i == hits.size() ? nullptr : &hits[i];
+    const Rational low = from != nullptr ? from->at : Rational(0);
+    const Rational high = to != nullptr ? to->at : Rational(1);
+    if (low == high || !in_material(along(x0, x1, (low + high) / 2))) continue;
+    buried.push_back({from != nullptr ? from->face : -1, to != nullptr ? to->face : -1,
+                      from != nullptr ? from->cut.hi : 0,
+                      to != nullptr ? to->cut.lo : 1});
   }
   return buried;
 }

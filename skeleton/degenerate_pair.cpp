@@ -235,7 +235,7 @@ void add_degenerate_pair(const Generators& g, const Star& star, const Ridge& rid
       const LineScan scan(scene, faces, from, x);
       const auto state = open_state(g, ridge, scan);
       // Between a corner and an edge that others touch all of a segment may be inside.
-      if (between && state && star.touched && ridge.touched &&
+      if (between && state && (star.touched || !star.convex) && g.borders_others(ridge) &&
           g.in_material(along(from, x, Rational(1, 2)))) {
         return std::nullopt;
       }

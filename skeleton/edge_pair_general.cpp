@@ -106,8 +106,8 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
     const auto s = curve.between(stops[i], stops[i + 1]);
     const auto line = s ? curve.points_at(*s) : std::nullopt;
     State here = state_of(line, true);
-    // Between parts of two edges that enter a solid all of a segment is inside.
-    if (here && first.touched && last.touched &&
+    // Between edges that others touch all of a segment may be inside.
+    if (here && g_.borders_others(first) && g_.borders_others(last) &&
         g_.in_material(along((*line)[0], (*line)[1], Rational(1, 2)))) {
       here.reset();
     }

@@ -136,6 +136,10 @@ class Generators {
   /// Ridge number of a scene edge (the same for coinciding ones; of several gaps that in
   /// which lines graze, or the first), -1 when no line has a contact there.
   [[nodiscard]] int ridge_of_edge(int edge) const { return ridge_of_edge_[edge]; }
+  /// Faces other than its own two are at the edge: on both sides of it may be material.
+  [[nodiscard]] bool borders_others(const Ridge& ridge) const {
+    return ridge.touched || scene_->edges()[ridge.edge].sides.size() > 2;
+  }
   /// An edge as lines name it: the same for all that coincide.
   [[nodiscard]] Generator named(int edge) const {
     const int ridge = ridge_of_edge_[edge];
