@@ -190,15 +190,17 @@ inline std::string difference(const Answers& a, const Answers& b, int limit = 2)
   return out.str();
 }
 
-/// The number of the scene's variants with the same answers; what differs goes to
-/// standard error.
-inline int count_alike(Crowd crowd, std::uint64_t seed) {
+/// The number of the scene's variants (of those with this name, unless it is empty) with
+/// the same answers; what differs goes to standard error.
+inline int count_alike(Crowd crowd, std::uint64_t seed,
+                       const std::string& variant = {}) {
   const PolygonSoup soup = crowded_scene(crowd, seed);
   const Questions q = questions_for(soup, seed);
   const auto identity = [](const Point& p) -> Point { return p; };
   const Answers base = answers_of({"itself", soup, identity, identity}, q, true);
   int alike = 0;
   for (const Variant& v : variants_of(soup, seed)) {
+    if (!variant.empty() && v.name != variant) continue;
     const std::string found = difference(base, answers_of(v, q, true));
     if (found.empty()) {
       ++alike;
