@@ -478,7 +478,8 @@ bool VertexViewer::ends_are_simple(const Pair& pair,
   });
 }
 
-// Lists where foreign faces meet the edge; true where that is inside an open part.
+// Lists where foreign faces meet the edge; true where that is inside an open part, or
+// where a buried stretch may be seen from a corner on the same solid.
 bool VertexViewer::pierced_inside(Pair& pair, std::span<const CutInterval> open) const {
   const LineThrough line{pair.e0, pair.e1};
   const auto before = [&](const Cut& a, const Cut& b) {
@@ -489,6 +490,7 @@ bool VertexViewer::pierced_inside(Pair& pair, std::span<const CutInterval> open)
     pair.lists.pierced.push_back(make_cut(CutKind::Pierce, scene_.faces()[face].facet,
                                           plane_points(scene_, face), v.at0, v.at1));
   }
+  if (star_->touched && !pair.r->buried.empty()) return true;
   return std::any_of(
       pair.lists.pierced.begin(), pair.lists.pierced.end(), [&](const Cut& at) {
         return std::any_of(open.begin(), open.end(), [&](const CutInterval& i) {
