@@ -821,6 +821,7 @@ struct LineScan::Impl {
   int plane_position(std::span<const int> points);
   int add_position(Ring num, Ring den) const;
   int compare(int p, int q) const;
+  [[nodiscard]] Rational quotient_times_scale(const Ring& num, const Ring& den) const;
   const Rational& t(int position) const;
   [[nodiscard]] int t_against(int position, int s) const;
 
@@ -1049,9 +1050,23 @@ int LineScan::Impl::compare(int p, int q) const {
   return sign_of(Ring(a.num * b.den) - Ring(b.num * a.den));
 }
 
+// num / den times scale, brought to lowest terms once.
+Rational LineScan::Impl::quotient_times_scale(const Ring& num, const Ring& den) const {
+  const Gmpq n = gmpq(num);
+  const Gmpq d = gmpq(den);
+  Rational out;
+  mpq_t& q = out.backend().data();
+  mpz_mul(mpq_numref(q), mpq_numref(n.mpq()), mpq_denref(d.mpq()));
+  mpz_mul(mpq_denref(q), mpq_denref(n.mpq()), mpq_numref(d.mpq()));
+  mpz_mul(mpq_numref(q), mpq_numref(q), mpq_numref(scale.mpq()));
+  mpz_mul(mpq_denref(q), mpq_denref(q), mpq_denref(scale.mpq()));
+  mpq_canonicalize(q);
+  return out;
+}
+
 const Rational& LineScan::Impl::t(int position) const {
   Position& p = positions[position];
-  if (!p.t) p.t = rational(gmpq(p.num) / gmpq(p.den) * scale);
+  if (!p.t) p.t = quotient_times_scale(p.num, p.den);
   return *p.t;
 }
 
@@ -1221,7 +1236,7 @@ void LineScan::Impl::group() {
 }
 
 Rational LineScan::Impl::corner_t(const Corner& c) const {
-  return rational(gmpq(c.v) / gmpq(direction[k]) * scale);
+  return quotient_times_scale(c.v, direction[k]);
 }
 
 // The slopes of two sides from a position on L to corners that are in one direction seen
@@ -1356,7 +1371,8 @@ std::vector<LineScan::Impl::Material> LineScan::Impl::material_at_ends(
   const bool along_solid = std::any_of(
       hits.begin() + first_hit[contact], hits.begin() + first_hit[contact + 1],
       [&](const Hit& h) {
-        return h.obstacle == Obstacle::Barrier && solid_behind(h.face);
+        return h.obstacle == Obstacle::Barrier && solid_behind(h.face) &&
+               ((t(h.from) <= lo && lo < t(h.to)) || (t(h.from) < hi && hi <= t(h.to)));
       });
   if (!along_solid) return {};
   Rational first = hi;
