@@ -1303,9 +1303,8 @@ void LineScan::Impl::add_material(int contact, const Rational& at,
   std::vector<Leaf> leaves;
   const auto opposite = [](const Corner& c) { return Corner{-1, c.v, -c.u}; };
   const auto add = [&](Corner corner, bool after, bool before) {
-    const auto known = std::ranges::find_if(leaves, [&](const Leaf& l) {
-      return same_direction(l.corner.u, corner.u);
-    });
+    const auto known = std::ranges::find_if(
+        leaves, [&](const Leaf& l) { return same_direction(l.corner.u, corner.u); });
     Leaf& leaf =
         known == leaves.end() ? leaves.emplace_back(Leaf{std::move(corner)}) : *known;
     leaf.after |= after;
@@ -1591,6 +1590,18 @@ std::vector<int> LineScan::faces_at(int contact, const Rational& t) const {
   for (int h = impl_->first_hit[contact]; h < impl_->first_hit[contact + 1]; ++h) {
     const Hit& hit = impl_->hits[h];
     if (impl_->t(hit.from) <= t && t <= impl_->t(hit.to)) out.push_back(hit.face);
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+std::vector<int> LineScan::faces_within(int contact, const std::optional<Rational>& lo,
+                                        const std::optional<Rational>& hi) const {
+  std::vector<int> out;
+  for (int h = impl_->first_hit[contact]; h < impl_->first_hit[contact + 1]; ++h) {
+    const Hit& hit = impl_->hits[h];
+    if ((!hi || impl_->t(hit.from) <= *hi) && (!lo || *lo <= impl_->t(hit.to)))
+      out.push_back(hit.face);
   }
   std::sort(out.begin(), out.end());
   return out;

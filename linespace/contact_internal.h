@@ -66,6 +66,11 @@ class LineScan {
   [[nodiscard]] std::vector<int> edge_on_corners(int contact) const;
   /// Faces of the contact that meet the line at exactly this position, ascending.
   [[nodiscard]] std::vector<int> faces_at(int contact, const Rational& t) const;
+  /// Faces of the contact that meet the closed part [lo, hi] of the line, ascending; none:
+  /// without bound.
+  [[nodiscard]] std::vector<int> faces_within(int contact,
+                                              const std::optional<Rational>& lo,
+                                              const std::optional<Rational>& hi) const;
   /// Positions at which a face of the contact begins or ends, ascending, without repeats.
   [[nodiscard]] std::vector<Rational> instants(int contact) const;
 

@@ -649,26 +649,6 @@ bool blocked_at_end(const LineScan& scan, int c, const Rational& lo, const Ratio
   return scan.blocked_between(c, from, to);
 }
 
-// The faces of a contact that the part [lo, hi] of the line meets, ascending.
-std::vector<int> faces_within(const LineScan& scan, int c, const Rational& lo,
-                              const Rational& hi) {
-  std::vector<Rational> at{std::max(scan.from(c), lo)};
-  for (const Rational& t : scan.instants(c)) {
-    if (t > lo && t < hi) at.push_back(t);
-  }
-  at.push_back(std::min(scan.to(c), hi));
-  std::vector<int> faces;
-  const auto add = [&](const Rational& t) {
-    const auto here = scan.faces_at(c, t);
-    faces.insert(faces.end(), here.begin(), here.end());
-  };
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    add(at[k]);
-    if (k > 0) add((at[k - 1] + at[k]) / 2);
-  }
-  return unique_sorted(std::move(faces));
-}
-
 // A contact of the line as the part [lo, hi] of it sees it.
 Contact clipped(const LineScan& scan, int c, const Rational& lo, const Rational& hi) {
   const Rational& from = std::max(scan.from(c), lo);
@@ -678,7 +658,7 @@ Contact clipped(const LineScan& scan, int c, const Rational& lo, const Rational&
       within ? scan.blocked_between(c, lo, hi) : blocked_at_end(scan, c, lo, hi);
   std::vector<Touch> touches = scan.touches(c);
   if (scan.from(c) < lo || hi < scan.to(c)) {
-    const std::vector<int> faces = faces_within(scan, c, lo, hi);
+    const std::vector<int> faces = scan.faces_within(c, lo, hi);
     std::erase_if(touches, [&](const Touch& t) {
       return !std::ranges::binary_search(faces, t.face);
     });

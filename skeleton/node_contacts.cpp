@@ -27,23 +27,6 @@ struct Reach {
   }
 };
 
-// Faces of the contact that the line meets within reach, ascending.
-std::vector<int> faces_within(const LineScan& scan, int contact, const Reach& reach) {
-  const std::vector<Rational> at = scan.instants(contact);
-  std::vector<int> faces;
-  const auto add = [&](const Rational& t) {
-    const auto here = scan.faces_at(contact, t);
-    faces.insert(faces.end(), here.begin(), here.end());
-  };
-  for (std::size_t k = 0; k < at.size(); ++k) {
-    if (!reach.has(at[k])) continue;
-    add(at[k]);
-    if (k > 0 && reach.has(at[k - 1])) add((at[k - 1] + at[k]) / 2);
-  }
-  sort_unique(faces);
-  return faces;
-}
-
 // What a contact is made of, within reach: corners, edges that are not flat, faces the
 // line lies in.
 std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
@@ -55,7 +38,8 @@ std::vector<Generator> generators_of(const Generators& g, const LineScan& scan,
     if (edge >= 0) found.push_back(g.named(edge));
   };
   const bool bounded = reach != nullptr && (reach->from || reach->to);
-  const auto near = bounded ? faces_within(scan, contact, *reach) : std::vector<int>{};
+  const auto near =
+      bounded ? scan.faces_within(contact, reach->from, reach->to) : std::vector<int>{};
   const auto in_reach = [&](int face) {
     return !bounded || std::ranges::binary_search(near, face);
   };
@@ -211,15 +195,23 @@ std::optional<Rational> stop_in(const Generators& g, const LineScan& scan, int c
   return blocked_beyond(g, scan, contact, Rational(1, 2), step);
 }
 
-// The last contact that the maximal free segment meets, from one that it meets on.
-int last_contact(const Generators& g, const LineScan& scan, int contact, int step) {
-  while (!stop_in(g, scan, contact, step)) {
+// A contact that a free segment meets, and where the segment stops in it; nullopt where
+// it passes.
+struct FreeEnd {
+  int contact;
+  std::optional<Rational> stop;
+};
+
+// The last one that the maximal free segment meets, from one that it meets on.
+FreeEnd last_contact(const Generators& g, const LineScan& scan, int contact, int step) {
+  for (;;) {
+    auto stop = stop_in(g, scan, contact, step);
+    if (stop) return {contact, std::move(stop)};
     const int next = contact + step;
-    if (next < 0 || next >= scan.size()) break;
-    if (scan.blocked(next) && !is_entered(g, scan, next, step)) break;
+    if (next < 0 || next >= scan.size()) return {contact, {}};
+    if (scan.blocked(next) && !is_entered(g, scan, next, step)) return {contact, {}};
     contact = next;
   }
-  return contact;
 }
 
 // From the first to the last of these contacts of a line; none where one of them blocks:
@@ -527,19 +519,25 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
     stops_at = blocked_ends(g, scan).value_or(std::array<bool, 2>{
         blocks_segment(g, scan, first), blocks_segment(g, scan, last)});
   }
-  const auto go_on = [&](int contact, int step) {
-    const int at = last_contact(g, scan, contact, step);
-    const int next = at + step;
-    if (!polygon || grazes || stop_in(g, scan, at, step)) return at;
+  const auto go_on = [&](int contact, int step) -> FreeEnd {
+    FreeEnd end = last_contact(g, scan, contact, step);
+    const int next = end.contact + step;
+    if (!polygon || grazes || end.stop) return end;
     const bool ends = next >= 0 && next < scan.size() && scan.blocked(next) &&
                       !generators_of(g, scan, next).empty();
-    return ends ? next : at;
+    return ends ? FreeEnd{next, stop_in(g, scan, next, step)} : end;
   };
-  if (!stops_at[0]) first = go_on(first, -1);
-  if (!stops_at[1]) last = go_on(last, 1);
+  const auto end_at = [&](int contact, int step, bool stops) -> FreeEnd {
+    return stops ? FreeEnd{contact, stop_in(g, scan, contact, step)}
+                 : go_on(contact, step);
+  };
+  FreeEnd low = end_at(first, -1, stops_at[0]);
+  FreeEnd high = end_at(last, 1, stops_at[1]);
+  first = low.contact;
+  last = high.contact;
   std::vector<std::vector<Generator>> groups;
   // What lies behind the foot of a wall, in the plane of another, is not reached.
-  const Reach reach{line, stop_in(g, scan, first, -1), stop_in(g, scan, last, 1)};
+  const Reach reach{line, std::move(low.stop), std::move(high.stop)};
   std::vector<int> contacts;
   for (int c = first; c <= last; ++c) {
     groups.push_back(generators_of(g, scan, c, &reach));
