@@ -783,14 +783,40 @@ struct RoundedLine {
 }  // namespace
 
 struct LineScan::Impl {
-  explicit Impl(const Scene& s) : scene(s) {
-    // As many as most lines meet.
-    corners.reserve(16);
-    positions.reserve(16);
-    hits.reserve(16);
+  // Kept by the thread when their LineScan ends: they are made by the million, and what
+  // they keep need not be allocated again.
+  static std::unique_ptr<Impl> take(const Scene& scene) {
+    auto& spare = spares();
+    std::unique_ptr<Impl> impl;
+    if (spare.empty()) {
+      impl = std::make_unique<Impl>();
+    } else {
+      impl = std::move(spare.back());
+      spare.pop_back();
+    }
+    impl->scene = &scene;
+    return impl;
+  }
+  static void give_back(std::unique_ptr<Impl> impl) {
+    constexpr std::size_t kMostSpares = 8;
+    constexpr std::size_t kMostCorners = 256;
+    auto& spare = spares();
+    if (spare.size() >= kMostSpares || impl->corners.capacity() > kMostCorners) return;
+    impl->corners.clear();
+    impl->positions.clear();
+    impl->hits.clear();
+    impl->first_hit.clear();
+    impl->contact_to.clear();
+    impl->blocked.clear();
+    impl->loops.clear();
+    spare.push_back(std::move(impl));
+  }
+  static std::vector<std::unique_ptr<Impl>>& spares() {
+    thread_local std::vector<std::unique_ptr<Impl>> spares;
+    return spares;
   }
 
-  const Scene& scene;
+  const Scene* scene = nullptr;
   Ring alpha, origin[3], direction[3];
   bool alpha_is_one = true;
   Gmpq scale;            // delta / alpha
@@ -943,7 +969,7 @@ bool LineScan::Impl::first_stage(std::span<const int> points) {
   double largest_v = 0, largest_u = 0;
   double low_x = kInfinity, high_x = -kInfinity, low_y = kInfinity, high_y = -kInfinity;
   for (std::size_t c = 0; c < n; ++c) {
-    const Point& p = scene.point(points[c]);
+    const Point& p = scene->point(points[c]);
     const double vi = p[i] - rounded.a[i], vj = p[j] - rounded.a[j],
                  vk = p[k] - rounded.a[k];
     largest_v = std::max({largest_v, std::abs(vi), std::abs(vj), std::abs(vk)});
@@ -976,7 +1002,7 @@ int LineScan::Impl::corner(int point) {
   for (int c = static_cast<int>(corners.size()) - 1; c >= 0; --c) {
     if (corners[c].point == point) return c;
   }
-  corners.push_back(seen(point, scene.point(point)));
+  corners.push_back(seen(point, scene->point(point)));
   return static_cast<int>(corners.size()) - 1;
 }
 
@@ -1084,19 +1110,20 @@ int LineScan::Impl::t_against(int position, int s) const {
 
 // A cut inside a polygon of the file: no feature, whether or not the polygon is flat.
 bool LineScan::Impl::is_diagonal(int face, int side) const {
-  const auto points = scene.face_points(face);
+  const auto points = scene->face_points(face);
   if (points.size() != 3) return false;  // only triangles are cut from polygons
   const int p = points[side], q = points[(side + 1) % 3];
-  const auto near = scene.faces_at(p);
+  const auto near = scene->faces_at(p);
   return std::any_of(near.begin(), near.end(), [&](int f) {
-    if (f == face || scene.faces()[f].source != scene.faces()[face].source) return false;
-    const auto other = scene.face_points(f);
+    if (f == face || scene->faces()[f].source != scene->faces()[face].source)
+      return false;
+    const auto other = scene->face_points(f);
     return std::find(other.begin(), other.end(), q) != other.end();
   });
 }
 
 void LineScan::Impl::meet(int face) {
-  const auto points = scene.face_points(face);
+  const auto points = scene->face_points(face);
   if (!first_stage(points)) return;
   const int n = static_cast<int>(points.size());
   const auto next = [n](int i) { return i + 1 == n ? 0 : i + 1; };
@@ -1255,7 +1282,7 @@ int LineScan::Impl::compare_slopes(const Corner& p, const Corner& q, int positio
 // The sides of an edge-on face, cut to the part from lo to hi.
 void LineScan::Impl::add_fins(const Hit& hit, const Rational* lo, const Rational* hi,
                               std::vector<Fin>& fins) const {
-  const int n = static_cast<int>(scene.face_points(hit.face).size());
+  const int n = static_cast<int>(scene->face_points(hit.face).size());
   const auto at = [&](int i) -> const Corner& {
     return corners[loops[hit.loop + (i + n) % n]];
   };
@@ -1317,10 +1344,10 @@ void LineScan::Impl::add_material(int contact, const Rational& at,
       continue;
     const bool solid = solid_behind(hit.face);
     any |= solid;
-    const auto points = scene.face_points(hit.face);
+    const auto points = scene->face_points(hit.face);
     const Corner& reference = corners[hit.start];
-    const std::array<Point, 3> plane{scene.point(points[0]), scene.point(points[1]),
-                                     scene.point(points[2])};
+    const std::array<Point, 3> plane{scene->point(points[0]), scene->point(points[1]),
+                                     scene->point(points[2])};
     const Point w = point_off_plane(plane[0], plane[1], plane[2]);
     const bool behind = orient3d(plane[0], plane[1], plane[2], w) == Sign::Negative;
     const int turn = cross(reference.u, seen(-1, w).u);  // w's plane is not L's: not 0
@@ -1520,19 +1547,21 @@ bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi,
 
 LineScan::LineScan(const Scene& scene, std::span<const int> faces, const ExactPoint& a,
                    const ExactPoint& b)
-    : impl_(std::make_unique<Impl>(scene)) {
+    : impl_(Impl::take(scene)) {
   impl_->set_line(a, b);
   impl_->scan(faces);
 }
 
 LineScan::LineScan(const Scene& scene, std::span<const int> faces, const Point& a,
                    const Point& b)
-    : impl_(std::make_unique<Impl>(scene)) {
+    : impl_(Impl::take(scene)) {
   impl_->set_line(a, b);
   impl_->scan(faces);
 }
 
-LineScan::~LineScan() = default;
+LineScan::~LineScan() {
+  if (impl_) Impl::give_back(std::move(impl_));
+}
 LineScan::LineScan(LineScan&&) noexcept = default;
 
 int LineScan::size() const { return static_cast<int>(impl_->contact_to.size()); }
@@ -1574,7 +1603,7 @@ std::vector<int> LineScan::edge_on_corners(int contact) const {
   for (int h = impl_->first_hit[contact]; h < impl_->first_hit[contact + 1]; ++h) {
     const Hit& hit = impl_->hits[h];
     if (hit.kind != TouchKind::EdgeOn) continue;
-    const int n = impl_->scene.faces()[hit.face].corner_count;
+    const int n = impl_->scene->faces()[hit.face].corner_count;
     for (int i = hit.loop; i < hit.loop + n; ++i) {
       const Corner& c = impl_->corners[impl_->loops[i]];
       if (c.u.zero()) out.push_back(c.point);
