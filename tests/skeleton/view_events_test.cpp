@@ -76,7 +76,7 @@ class Viewer {
  private:
   [[nodiscard]] bool grazes(const Point& x, const Point& p) const {
     const auto faces = internal::faces_near_line(generators_, x, p);
-    return internal::is_free(LineScan(scene_, faces, x, p));
+    return internal::is_free(generators_, LineScan(scene_, faces, x, p));
   }
 
   // One point of `near` and one of `far` lie in line, both grazed, in this order, and
@@ -109,7 +109,7 @@ class Viewer {
     const Rational t = (p[axis] - e[axis]) / (q[axis] - e[axis]);
     if (t <= 0 || t >= 1) return false;
     const auto faces = internal::faces_near_line(generators_, x, internal::rounded(q));
-    return internal::is_free(LineScan(scene_, faces, e, q));
+    return internal::is_free(generators_, LineScan(scene_, faces, e, q));
   }
 
   const Scene& scene_;
