@@ -33,7 +33,7 @@ bool some_free(const Generators& g, const std::array<Point, 2>& first,
       const ExactPoint q =
           along(exact_point(last[0]), exact_point(last[1]), Rational(t) / 16);
       if (is_free(
-              LineScan(g.scene(), faces_near_line(g, rounded(p), rounded(q)), p, q))) {
+              g, LineScan(g.scene(), faces_near_line(g, rounded(p), rounded(q)), p, q))) {
         return true;
       }
     }
