@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "skeleton/line_probe_internal.h"
+#include "skeleton/node_contacts_internal.h"
 
 namespace sightline::internal {
 namespace {
@@ -41,6 +42,107 @@ Met met(const Scene& scene, int face, const Point& a, const Point& b, double err
   }
   return unsure ? Met::Unsure : Met::Crossed;
 }
+
+struct Range {
+  double from, to;  // positions on a line: 0 at a, 1 at b; empty if from > to
+};
+
+// A line through a and b, each off by at most `error`: where it passes boxes, and how far
+// the free segment around both reaches at most.
+class Outlook {
+ public:
+  Outlook(const Generators& g, const Point& a, const Point& b, double error)
+      : g_(g), a_(a), b_(b), error_(error), d_(b - a), length_(d_.norm()) {
+    const auto& bounds = g.scene().bounds();
+    for (int i = 0; i < 3; ++i) {
+      size_ = std::max({size_, std::abs(bounds[0][i]), std::abs(bounds[1][i])});
+    }
+    // What the line is off by anywhere in the scene's box, and what the bounds below
+    // round by (a few units in the last place of size, magnified likewise): generous.
+    grow_ = (4 * error + 64 * kUnit * size_) * (1 + 4 * size_ / length_);
+    inverse_ = d_.cwiseInverse();
+  }
+
+  [[nodiscard]] bool usable() const { return length_ > 4 * error_; }
+  /// What lies there may be on the free segment, as far as looked.
+  [[nodiscard]] bool matters(const Range& r) const {
+    return r.from <= r.to && r.from <= free_.to && r.to >= free_.from;
+  }
+
+  // Calls take(face, range, met) for faces near the line, from the segment outwards, up
+  // to where certain walls end it; faces for which skip(face) are no walls.
+  template <class Skip, class Take>
+  void look(Skip&& skip, Take&& take) {
+    const Bvh& tree = g_.face_tree();
+    struct Entry {
+      std::uint32_t node;
+      Range range;
+    };
+    std::array<Entry, 128> stack;
+    int top = 0;
+    if (!tree.empty()) stack[top++] = {0, range_in(tree.node(0).box)};
+    while (top > 0) {
+      const Entry entry = stack[--top];
+      if (!matters(entry.range)) continue;
+      const Bvh::Node& node = tree.node(entry.node);
+      if (node.count == 0) {
+        Entry near{node.first, range_in(tree.node(node.first).box)};
+        Entry far{node.first + 1, range_in(tree.node(node.first + 1).box)};
+        if (away(far.range) < away(near.range)) std::swap(near, far);
+        if (matters(far.range)) stack[top++] = far;
+        if (matters(near.range)) stack[top++] = near;
+        continue;
+      }
+      for (std::uint32_t k = 0; k < node.count; ++k) {
+        const int face = static_cast<int>(tree.items()[node.first + k]);
+        if (skip(face)) continue;
+        const Range range = range_in(g_.face_box(face));
+        if (!matters(range)) continue;
+        const Met how = met(g_.scene(), face, a_, b_, error_);
+        take(face, range, how);
+        if (how != Met::Crossed) continue;
+        // The free segment ends at the latest where this wall does.
+        if (range.from > 1) free_.to = std::min(free_.to, range.to);
+        if (range.to < 0) free_.from = std::max(free_.from, range.from);
+      }
+    }
+  }
+
+ private:
+  static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] Range range_in(const Box& box) const {
+    Range range{-kInfinity, kInfinity};
+    for (int i = 0; i < 3; ++i) {
+      const double low = box.min[i] - grow_ - a_[i];
+      const double high = box.max[i] + grow_ - a_[i];
+      // Nearly parallel to the slab: it excludes the line only where a is far outside,
+      // and says nothing of positions.
+      if (std::abs(d_[i]) * (4 * size_) <= grow_ * length_) {
+        const double sway = 4 * size_ / length_ * std::abs(d_[i]);
+        if (low > sway || high < -sway) return Range{kInfinity, -kInfinity};
+        continue;
+      }
+      const double p = low * inverse_[i];
+      const double q = high * inverse_[i];
+      range.from = std::max(range.from, std::min(p, q));
+      range.to = std::min(range.to, std::max(p, q));
+    }
+    return range;
+  }
+  [[nodiscard]] static double away(const Range& r) {
+    return std::max({0.0, r.from - 1, -r.to});
+  }
+
+  const Generators& g_;
+  const Point a_, b_;
+  const double error_;
+  const Point d_;
+  const double length_;
+  double size_ = 0, grow_ = 0;
+  Point inverse_;
+  Range free_{-kInfinity, kInfinity};
+};
 
 }  // namespace
 
@@ -81,80 +183,33 @@ bool LineProbe::named(int face) const {
 
 bool LineProbe::may_touch_more(const Point& a, const Point& b, double error,
                                std::span<const Generator> known) {
+  Outlook outlook(g_, a, b, error);
+  if (!outlook.usable()) return true;
   name(known);
-  unsure_.clear();
-  const Point d = b - a;
-  const double length = d.norm();
-  if (!(length > 4 * error)) return true;
-  const auto& bounds = g_.scene().bounds();
-  double size = 0;
-  for (int i = 0; i < 3; ++i) {
-    size = std::max({size, std::abs(bounds[0][i]), std::abs(bounds[1][i])});
+  std::vector<Range> unsure;
+  outlook.look([&](int face) { return named(face); },
+               [&](int, const Range& range, Met how) {
+                 if (how == Met::Unsure) unsure.push_back(range);
+               });
+  return std::ranges::any_of(unsure, [&](const Range& r) { return outlook.matters(r); });
+}
+
+std::vector<int> faces_near_free_segment(const Generators& g, const Point& a,
+                                         const Point& b) {
+  // Each coordinate is rounded by half a unit in its last place.
+  Outlook outlook(g, a, b, 2 * kUnit * (norm1(a) + norm1(b)));
+  if (!outlook.usable()) return faces_near_line(g, a, b);
+  std::vector<std::pair<int, Range>> near;
+  outlook.look([](int) { return false; },
+               [&](int face, const Range& range, Met how) {
+                 if (how != Met::Missed) near.emplace_back(face, range);
+               });
+  std::vector<int> faces;
+  for (const auto& [face, range] : near) {
+    if (outlook.matters(range)) faces.push_back(face);
   }
-  // What the line is off by anywhere in the scene's box, and what the bounds below round
-  // by (a few units in the last place of size, magnified likewise): generous.
-  const double grow = (4 * error + 64 * kUnit * size) * (1 + 4 * size / length);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const Point inverse = d.cwiseInverse();
-  const auto range_in = [&](const Box& box) {
-    Range range{-kInfinity, kInfinity};
-    for (int i = 0; i < 3; ++i) {
-      const double low = box.min[i] - grow - a[i];
-      const double high = box.max[i] + grow - a[i];
-      // Nearly parallel to the slab: it excludes the line only where a is far outside,
-      // and says nothing of positions.
-      if (std::abs(d[i]) * (4 * size) <= grow * length) {
-        const double sway = 4 * size / length * std::abs(d[i]);
-        if (low > sway || high < -sway) return Range{kInfinity, -kInfinity};
-        continue;
-      }
-      const double p = low * inverse[i];
-      const double q = high * inverse[i];
-      range.from = std::max(range.from, std::min(p, q));
-      range.to = std::min(range.to, std::max(p, q));
-    }
-    return range;
-  };
-  // The free segment ends at the latest where the nearest wall on either side does.
-  Range free{-kInfinity, kInfinity};
-  const auto matters = [&](const Range& r) {
-    return r.from <= r.to && r.from <= free.to && r.to >= free.from;
-  };
-  const auto away = [](const Range& r) { return std::max({0.0, r.from - 1, -r.to}); };
-  const Bvh& tree = g_.face_tree();
-  struct Entry {
-    std::uint32_t node;
-    Range range;
-  };
-  std::array<Entry, 128> stack;
-  int top = 0;
-  if (!tree.empty()) stack[top++] = {0, range_in(tree.node(0).box)};
-  while (top > 0) {
-    const Entry entry = stack[--top];
-    if (!matters(entry.range)) continue;
-    const Bvh::Node& node = tree.node(entry.node);
-    if (node.count == 0) {
-      // From the segment outwards, so that walls are met early.
-      Entry near{node.first, range_in(tree.node(node.first).box)};
-      Entry far{node.first + 1, range_in(tree.node(node.first + 1).box)};
-      if (away(far.range) < away(near.range)) std::swap(near, far);
-      if (matters(far.range)) stack[top++] = far;
-      if (matters(near.range)) stack[top++] = near;
-      continue;
-    }
-    for (std::uint32_t k = 0; k < node.count; ++k) {
-      const int face = static_cast<int>(tree.items()[node.first + k]);
-      if (named(face)) continue;
-      const Range range = range_in(g_.face_box(face));
-      if (!matters(range)) continue;
-      const Met how = met(g_.scene(), face, a, b, error);
-      if (how == Met::Unsure) unsure_.push_back(range);
-      if (how != Met::Crossed) continue;
-      if (range.from > 1) free.to = std::min(free.to, range.to);
-      if (range.to < 0) free.from = std::max(free.from, range.from);
-    }
-  }
-  return std::any_of(unsure_.begin(), unsure_.end(), matters);
+  std::ranges::sort(faces);
+  return faces;
 }
 
 }  // namespace sightline::internal

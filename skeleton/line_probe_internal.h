@@ -29,10 +29,12 @@ class LineProbe {
 
   const Generators& g_;
   std::vector<std::int32_t> objects_, facets_;  // of the generators
-  struct Range {
-    double from, to;
-  };
-  std::vector<Range> unsure_;  // positions: 0 at a, 1 at b; empty if from > to
 };
+
+/// Face ids, ascending, of all faces that meet the line through a and b along its maximal
+/// free segment around both, and some more; a and b may be rounded.  Beyond the walls
+/// that end the segment, faces are left out: in a city most of those on the line.
+[[nodiscard]] std::vector<int> faces_near_free_segment(const Generators& generators,
+                                                       const Point& a, const Point& b);
 
 }  // namespace sightline::internal

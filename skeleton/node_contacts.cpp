@@ -5,6 +5,7 @@
 
 #include "linespace/stop_scope_internal.h"
 #include "skeleton/known_lines_internal.h"
+#include "skeleton/line_probe_internal.h"
 #include "skeleton/node_contacts_internal.h"
 #include "skeleton/quotient_internal.h"
 
@@ -573,8 +574,12 @@ LineContacts contacts_of_line(const Generators& g, KnownLines& known,
   if (may_be_known) {
     if (const NodeContacts* before = known.find(line)) return {*before, {}, false};
   }
-  const LineScan scan(g.scene(), faces_near_line(g, rounded(line[0]), rounded(line[1])),
-                      line[0], line[1]);
+  const Point a = rounded(line[0]);
+  const Point b = rounded(line[1]);
+  // In polygon mode the wall that ends the line may be listed, with all that touches it.
+  const auto faces =
+      g.polygon() ? faces_near_line(g, a, b) : faces_near_free_segment(g, a, b);
+  const LineScan scan(g.scene(), faces, line[0], line[1]);
   LineContacts found;
   if (question.end) {
     found.end = *question.end;
