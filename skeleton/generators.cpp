@@ -176,7 +176,7 @@ void Generators::find_rooms() {
 void Generators::find_shells() {
   DisjointSets sets(scene_->faces().size());
   for (const Edge& e : scene_->edges()) {
-    for (const Edge::Side& side : e.sides) sets.unite(side.face, e.sides[0].face);
+    if (e.sides.size() == 2) sets.unite(e.sides[0].face, e.sides[1].face);
   }
   for (const Facet& facet : scene_->facets()) {
     for (const int f : facet.faces) sets.unite(f, facet.faces[0]);

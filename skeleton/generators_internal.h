@@ -170,7 +170,8 @@ class Generators {
   [[nodiscard]] bool solid_behind(int face) const {
     return scene_->solid_behind(face) || empty_room_[scene_->faces()[face].object] != 0;
   }
-  /// Number of the part of an object that a face is of: faces that hang together by edges.
+  /// Number of the part of an object that a face is of: faces that hang together by edges
+  /// of two faces.
   [[nodiscard]] int shell(int face) const { return shells_[face]; }
   /// Closed, bounded inside, and convex up to folds along edges declared flat; no room
   /// with something in it, nor around one.

@@ -521,12 +521,12 @@ NodeContacts contacts_along(const Generators& g, const LineScan& scan,
         blocks_segment(g, scan, first), blocks_segment(g, scan, last)});
   }
   const auto go_on = [&](int contact, int step) -> FreeEnd {
-    FreeEnd end = last_contact(g, scan, contact, step);
-    const int next = end.contact + step;
-    if (!polygon || grazes || end.stop) return end;
+    FreeEnd reached = last_contact(g, scan, contact, step);
+    const int next = reached.contact + step;
+    if (!polygon || grazes || reached.stop) return reached;
     const bool ends = next >= 0 && next < scan.size() && scan.blocked(next) &&
                       !generators_of(g, scan, next).empty();
-    return ends ? FreeEnd{next, stop_in(g, scan, next, step)} : end;
+    return ends ? FreeEnd{next, stop_in(g, scan, next, step)} : reached;
   };
   const auto end_at = [&](int contact, int step, bool stops) -> FreeEnd {
     return stops ? FreeEnd{contact, stop_in(g, scan, contact, step)}

@@ -405,11 +405,12 @@ class Cutter {
     for (PolygonSoup::Group& group : soup_.groups) {
       own_ = points_of(group);
       std::map<std::vector<int>, std::vector<std::vector<int>>> done;  // copies alike
-      std::set<std::vector<int>> made;  // by corners; never the same twice
-      const auto is_new_piece = [&](std::vector<int> piece) {
-        std::ranges::sort(piece);
-        return made.insert(piece).second;
-      };
+      // Edges of other faces of the object: a cut along one would join the two.
+      std::set<std::pair<int, int>> taken;
+      for (const int f : group.faces) {
+        const auto sides = sides_of(soup_.polygons[f]);
+        taken.insert(sides.begin(), sides.end());
+      }
       std::vector<int> faces = group.faces;
       for (const int f : faces) {
         const std::vector<int> face = soup_.polygons[f];
@@ -417,7 +418,7 @@ class Cutter {
         std::ranges::sort(key);
         auto [at, is_new] = done.try_emplace(key);
         if (is_new && random_.one_in(share)) at->second = cut(face);
-        if (is_new && !std::ranges::all_of(at->second, is_new_piece)) at->second.clear();
+        if (is_new && !is_apart(face, at->second, taken)) at->second.clear();
         if (at->second.empty()) continue;
         std::vector<std::vector<int>> pieces = at->second;
         if (turned(face, pieces[0])) {
@@ -461,6 +462,26 @@ class Cutter {
   [[nodiscard]] const PolygonSoup& soup() const { return soup_; }
 
  private:
+  static std::set<std::pair<int, int>> sides_of(const std::vector<int>& face) {
+    std::set<std::pair<int, int>> sides;
+    for (std::size_t k = 0; k < face.size(); ++k) {
+      sides.insert(std::minmax({face[k], face[(k + 1) % face.size()]}));
+    }
+    return sides;
+  }
+  // The edges between the pieces are not taken; they are from now on.
+  static bool is_apart(const std::vector<int>& face,
+                       const std::vector<std::vector<int>>& pieces,
+                       std::set<std::pair<int, int>>& taken) {
+    std::set<std::pair<int, int>> between;
+    for (const auto& piece : pieces) between.merge(sides_of(piece));
+    for (const auto& side : sides_of(face)) between.erase(side);
+    for (const auto& side : between) {
+      if (taken.contains(side)) return false;
+    }
+    taken.merge(between);
+    return true;
+  }
   void weld() {
     std::vector<int> id;
     for (const Point& p : soup_.vertices) id.push_back(point(p));
