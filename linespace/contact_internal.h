@@ -33,7 +33,8 @@ struct ExactContact {
                                                       const ExactPoint& a,
                                                       const ExactPoint& b);
 
-/// The same for a line through two points of doubles, without rationals in the signs.
+/// All contacts of the line through two points of doubles, without rationals in the
+/// signs.
 [[nodiscard]] std::vector<ExactContact> line_contacts(const Scene& scene,
                                                       std::span<const int> faces,
                                                       const Point& a, const Point& b);
@@ -66,8 +67,8 @@ class LineScan {
   [[nodiscard]] std::vector<int> edge_on_corners(int contact) const;
   /// Faces of the contact that meet the line at exactly this position, ascending.
   [[nodiscard]] std::vector<int> faces_at(int contact, const Rational& t) const;
-  /// Faces of the contact that meet the closed part [lo, hi] of the line, ascending; none:
-  /// without bound.
+  /// Faces of the contact that meet the closed part [lo, hi] of the line, ascending;
+  /// none: without bound.
   [[nodiscard]] std::vector<int> faces_within(int contact,
                                               const std::optional<Rational>& lo,
                                               const std::optional<Rational>& hi) const;
@@ -79,12 +80,12 @@ class LineScan {
   /// crossed strictly between and by the edge-on stretches cut to that part.
   [[nodiscard]] bool blocked_between(int contact, const Rational& lo,
                                      const Rational& hi) const;
-  /// The same for a line that begins at lo and ends at hi: where these are on faces in a
-  /// plane with the line, nearby lines that are in material there do not count.
+  /// Whether the contact blocks a line that begins at lo and ends at hi.  Where lo or hi
+  /// lies on faces in a plane with the line, nearby lines that are in material there do
+  /// not count: a line along a wall is on the wall's free side.
   /// `solid_behind(face)`: behind the face is material.
-  [[nodiscard]] bool blocked_between(
-      int contact, const Rational& lo, const Rational& hi,
-      const std::function<bool(int)>& solid_behind) const;
+  [[nodiscard]] bool blocked_between(int contact, const Rational& lo, const Rational& hi,
+                                     const std::function<bool(int)>& solid_behind) const;
 
  private:
   struct Impl;

@@ -259,7 +259,7 @@ struct ValueAndPermanent {
 [[nodiscard]] inline Sign sign_of(double x) {
   return static_cast<Sign>(static_cast<int>(x > 0) - static_cast<int>(x < 0));
 }
-// The same but for 0.
+// The sign of x, which is not 0.
 [[nodiscard]] inline Sign sign_of_nonzero(double x) {
   return static_cast<Sign>((std::bit_cast<std::int64_t>(x) >> 63) | 1);
 }

@@ -123,7 +123,8 @@ struct Star {
 
 class Generators {
  public:
-  /// Of the request, budget (counted from `start`), stop, progress and threads count.
+  /// Of the request only budget (counted from `start`), stop, progress and threads are
+  /// heard.
   /// Throws Stopped.  Cost: n log n for n faces where few of them touch.
   explicit Generators(const Scene& scene, EventMode events = EventMode::Solid,
                       const Request& request = {},
@@ -201,11 +202,11 @@ class Generators {
   [[nodiscard]] const Bvh& blocker_tree() const { return blocker_tree_; }
   /// Over ridges(); leaves hold ridge numbers.
   [[nodiscard]] const Bvh& ridge_tree() const { return ridge_tree_; }
-  /// Of this node of ridge_tree().
+  /// What the ridges below a node of ridge_tree() share.
   [[nodiscard]] const RidgeGroup& ridge_group(std::size_t node) const {
     return ridge_groups_[node];
   }
-  /// Of the ridge at this position in ridge_tree().items().
+  /// What proves that no line touches the ridge at a position in ridge_tree().items().
   [[nodiscard]] const RidgeSides& ridge_sides(std::size_t position) const {
     return ridge_sides_[position];
   }

@@ -36,8 +36,7 @@ namespace sightline::internal {
 [[nodiscard]] bool is_free(const Generators& generators, const LineScan& scan);
 
 /// No contact blocks the open part of the line between its positions 0 and 1.
-[[nodiscard]] bool free_between(const Generators& generators,
-                                const LineScan& scan);
+[[nodiscard]] bool free_between(const Generators& generators, const LineScan& scan);
 
 /// Whether the contact at 0, that at 1 blocks the closed segment [0, 1]; nullopt when
 /// some contact blocks it strictly in between.
@@ -57,13 +56,14 @@ struct NodeContacts {
   NodeKind kind = NodeKind::Degenerate;
   bool self = false;
   bool end = false;  ///< some contact blocks the segment
-  /// That at 0, that at 1 does; of contacts_along: in the order listed.
+  /// Whether the contact at position 0, that at 1 blocks the segment; of
+  /// contacts_along(): the first and the last of the contacts listed.
   std::array<bool, 2> ends{};
   std::vector<Generator> generators;  ///< in order along the line
   bool turned = false;                ///< listed against the line's direction
   /// Both directions of the line list the same: `segment` has that of the line.
   bool both_ways = false;
-  /// Of an irrational line: which of the two through the same edges.
+  /// Of the two irrational lines through the same edges this is the second.
   bool second = false;
   /// Of a rational line that is Degenerate, of contacts_along(): tells it from others
   /// that make the same contacts, as lines of a pencil may; else empty.

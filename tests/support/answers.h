@@ -192,8 +192,7 @@ inline std::string difference(const Answers& a, const Answers& b, int limit = 2)
 
 /// The number of the scene's variants (of those with this name, unless it is empty) with
 /// the same answers; what differs goes to standard error.
-inline int count_alike(Crowd crowd, std::uint64_t seed,
-                       const std::string& variant = {}) {
+inline int count_alike(Crowd crowd, std::uint64_t seed, const std::string& variant = {}) {
   const PolygonSoup soup = crowded_scene(crowd, seed);
   const Questions q = questions_for(soup, seed);
   const auto identity = [](const Point& p) -> Point { return p; };
