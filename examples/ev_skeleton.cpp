@@ -14,9 +14,11 @@ int main(int argc, char** argv) {
   const std::string file = argc > 1 ? argv[1] : "examples/scenes/room.obj";
   const sightline::Scene scene(sightline::read_mesh(file));
 
-  // The whole exact answer, on all cores; the request may also name a region, a budget,
-  // ...
-  const sightline::Skeleton skeleton = sightline::build_ev_skeleton(scene);
+  // EV arcs only, of the whole scene, exact, on all cores; the request may also name a
+  // region, a budget, ...
+  sightline::SkeletonRequest request;
+  request.eee = false;
+  const sightline::Skeleton skeleton = sightline::build_skeleton(scene, request);
 
   // Nodes at which the line ends on a corner, rather than grazes it, are told apart.
   using Kind = sightline::NodeKind;

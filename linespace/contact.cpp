@@ -1667,27 +1667,4 @@ bool LineScan::blocked_between(int contact, const Rational& lo, const Rational& 
   return impl_->judge(contact, &lo, &hi, &solid_behind);
 }
 
-namespace {
-
-std::vector<ExactContact> all_contacts(const LineScan& scan) {
-  std::vector<ExactContact> out;
-  out.reserve(scan.size());
-  for (int c = 0; c < scan.size(); ++c) {
-    out.push_back({scan.from(c), scan.to(c), scan.blocked(c), scan.touches(c)});
-  }
-  return out;
-}
-
-}  // namespace
-
-std::vector<ExactContact> line_contacts(const Scene& scene, std::span<const int> faces,
-                                        const ExactPoint& a, const ExactPoint& b) {
-  return all_contacts(LineScan(scene, faces, a, b));
-}
-
-std::vector<ExactContact> line_contacts(const Scene& scene, std::span<const int> faces,
-                                        const Point& a, const Point& b) {
-  return all_contacts(LineScan(scene, faces, a, b));
-}
-
 }  // namespace sightline::internal

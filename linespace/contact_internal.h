@@ -16,35 +16,19 @@
 
 namespace sightline::internal {
 
-/// A Contact with its exact ends along the line a + t (b - a).
-struct ExactContact {
-  Rational from, to;
-  bool blocked;
-  std::vector<Touch> touches;
-};
-
-/// All contacts of the *whole line* through a and b with the given faces (any superset of
-/// those it meets in the range of interest, each face once), in order of `from`. Touching
-/// faces are grouped by geometry, whatever object they are of.  Requires a != b.
+/// All contacts of the *whole line* through two points a != b with the given faces, kept
+/// so that parts of the line can be judged on their own.  Touching faces are grouped by
+/// geometry, whatever object they are of.  Keeps a reference to the scene.  Positions are
+/// parameters t of a + t (b - a).
 /// Cost: about 20 ns for a face that a floating-point filter rejects, a microsecond of
 /// exact arithmetic for one that is met.
-[[nodiscard]] std::vector<ExactContact> line_contacts(const Scene& scene,
-                                                      std::span<const int> faces,
-                                                      const ExactPoint& a,
-                                                      const ExactPoint& b);
-
-/// All contacts of the line through two points of doubles, without rationals in the
-/// signs.
-[[nodiscard]] std::vector<ExactContact> line_contacts(const Scene& scene,
-                                                      std::span<const int> faces,
-                                                      const Point& a, const Point& b);
-
-/// The contacts of one line, kept so that parts of the line can be judged on their own.
-/// Keeps a reference to the scene.  Positions are parameters t of a + t (b - a).
 class LineScan {
  public:
+  /// `faces`: each once; any superset of those that the line meets where it is of
+  /// interest.
   LineScan(const Scene& scene, std::span<const int> faces, const ExactPoint& a,
            const ExactPoint& b);
+  /// The same without rationals in the signs.
   LineScan(const Scene& scene, std::span<const int> faces, const Point& a,
            const Point& b);
   ~LineScan();

@@ -93,20 +93,21 @@ int axis_of(const ExactLine::Coordinates& c) {
 }
 
 // The contact with m, as numerators over one denominator.
-struct Contact {
+struct PointOnLine {
   SurdVector at;
   Surd den;
 };
-Contact contact_of(const ExactLine::Coordinates& c, const LineThrough& m) {
+PointOnLine contact_of(const ExactLine::Coordinates& c, const LineThrough& m) {
   const Parameter w = parameter(c, m);
   const RingVector p = ring_point(m.from);
   const RingVector along = ring_difference(m.to, m.from);
-  Contact out{{}, w.den};
+  PointOnLine out{{}, w.den};
   for (int i = 0; i < 3; ++i) out.at[i] = w.den * p[i] + w.num * along[i];
   return out;
 }
 
-Sign order_along(const ExactLine::Coordinates& c, const Contact& a, const Contact& b) {
+Sign order_along(const ExactLine::Coordinates& c, const PointOnLine& a,
+                 const PointOnLine& b) {
   const int i = axis_of(c);
   const Ring& d = c.radicand;
   const Surd ahead = product(a.at[i], b.den, d) - product(b.at[i], a.den, d);
@@ -258,7 +259,7 @@ Sign ExactLine::contact_order(const LineThrough& m, const Eigen::Vector3d& p) co
 }
 
 RoundedPoint ExactLine::contact(const LineThrough& m) const {
-  const Contact at = contact_of(*coordinates_, m);
+  const PointOnLine at = contact_of(*coordinates_, m);
   return rounded(at.at, at.den, coordinates_->radicand);
 }
 

@@ -1,8 +1,8 @@
 // Two number types for the later stages of predicates: FixedInt, integers of a width
-// known at compile time, and Ball, a double-double value with a rigorous radius.
+// known at compile time, and BallNumber, a double-double value with a rigorous radius.
 //
 // A polynomial written once over its number type (a template with `auto` for what it
-// computes) runs on double, Ball and FixedInt alike.  Neither type allocates.
+// computes) runs on double, BallNumber and FixedInt alike.  Neither type allocates.
 
 #pragma once
 
@@ -181,13 +181,14 @@ template <int N, std::size_t Count>
   }
 }
 
-// ---- Ball -----------------------------------------------------------------------------
+// ---- BallNumber
+// -----------------------------------------------------------------------------
 
 /// The real interval of that radius around hi + lo, |lo| <= e |hi| with e = 2^-53.
 /// Each operation adds to the radius what its own roundings can amount to; radii
 /// themselves are computed with a few roundings and enlarged to cover these.
 /// Requires round-to-nearest and no contraction; magnitudes below 2^960.
-struct Ball {
+struct BallNumber {
   double hi = 0;
   double lo = 0;
   double radius = 0;
@@ -224,13 +225,13 @@ struct DoublePair {
 // Radii are sums of at most a dozen nonnegative terms with at most 8 roundings each.
 inline constexpr double kRadiusSlack = 1 + 16 * kUnit;
 
-[[nodiscard]] inline Ball exact_difference(double p, double q) {
+[[nodiscard]] inline BallNumber exact_difference(double p, double q) {
   const auto [s, t] = two_sum(p, -q);
   return {s, t, 0};
 }
 
 // Inexact are t and low, each off by at most e times itself.
-[[nodiscard]] inline Ball operator+(const Ball& a, const Ball& b) {
+[[nodiscard]] inline BallNumber operator+(const BallNumber& a, const BallNumber& b) {
   const auto [s, rest] = two_sum(a.hi, b.hi);
   const double t = a.lo + b.lo;
   const double low = rest + t;
@@ -239,14 +240,18 @@ inline constexpr double kRadiusSlack = 1 + 16 * kUnit;
   return {hi, lo, (a.radius + b.radius + rounding) * kRadiusSlack};
 }
 
-[[nodiscard]] inline Ball operator-(const Ball& a) { return {-a.hi, -a.lo, a.radius}; }
-[[nodiscard]] inline Ball operator-(const Ball& a, const Ball& b) { return a + -b; }
+[[nodiscard]] inline BallNumber operator-(const BallNumber& a) {
+  return {-a.hi, -a.lo, a.radius};
+}
+[[nodiscard]] inline BallNumber operator-(const BallNumber& a, const BallNumber& b) {
+  return a + -b;
+}
 
 // (a.hi + a.lo) (b.hi + b.lo): the first product is exact, a.lo b.lo is left out, and
 // four operations round.  Products below 2^-900 may also underflow, which costs at most
 // 2^-1074 for each of under twenty operations (2^-1000, still a normal number, covers
 // all).
-[[nodiscard]] inline Ball operator*(const Ball& a, const Ball& b) {
+[[nodiscard]] inline BallNumber operator*(const BallNumber& a, const BallNumber& b) {
   const auto [p, rest] = two_product(a.hi, b.hi);
   const double ab = a.hi * b.lo;
   const double ba = a.lo * b.hi;
@@ -262,7 +267,7 @@ inline constexpr double kRadiusSlack = 1 + 16 * kUnit;
 }
 
 /// nullopt when the interval contains 0.
-[[nodiscard]] inline std::optional<Sign> sign_of(const Ball& x) {
+[[nodiscard]] inline std::optional<Sign> sign_of(const BallNumber& x) {
   // |hi + lo| >= |hi| (1 - e), and the right side rounds by less than 2 e.
   if (std::abs(x.hi) > x.radius * (1 + 4 * kUnit)) return sign_of(x.hi);
   return std::nullopt;

@@ -158,8 +158,8 @@ class OnSkewPair {
   }
 
   FourComponents components(const Element& third, const Element& fourth) {
-    const Form<Ring> f = ring_form(l_, m_, third.line);
-    const Form<Ring> g = ring_form(l_, m_, fourth.line);
+    const BilinearForm<Ring> f = ring_form(l_, m_, third.line);
+    const BilinearForm<Ring> g = ring_form(l_, m_, fourth.line);
     const CommonZeros common = common_zeros(f, g);
     const bool no_f = is_zero(f.f[0][0]) && is_zero(f.f[0][1]) && is_zero(f.f[1][0]) &&
                       is_zero(f.f[1][1]);
@@ -208,7 +208,7 @@ class OnSkewPair {
     }
   }
 
-  void curve(const Form<Ring>& f) {
+  void curve(const BilinearForm<Ring>& f) {
     const auto at = [&](const Parameter& x) {
       const Parameter y{x[0] * f.f[0][1] + x[1] * f.f[1][1],
                         -(x[0] * f.f[0][0] + x[1] * f.f[1][0])};
@@ -226,7 +226,7 @@ class OnSkewPair {
   }
 
   // f = (a0 x0 + a1 x1)(b0 y0 + b1 y1).
-  static std::pair<Parameter, Parameter> factors(const Form<Ring>& f) {
+  static std::pair<Parameter, Parameter> factors(const BilinearForm<Ring>& f) {
     const int column = is_zero(f.f[0][0]) && is_zero(f.f[1][0]) ? 1 : 0;
     const int row = is_zero(f.f[0][0]) && is_zero(f.f[0][1]) ? 1 : 0;
     return {{f.f[1][column], -f.f[0][column]}, {f.f[row][1], -f.f[row][0]}};
@@ -240,7 +240,7 @@ class OnSkewPair {
                    elements_);
   }
 
-  void one_pencil(const Form<Ring>& f, const Form<Ring>& g) {
+  void one_pencil(const BilinearForm<Ring>& f, const BilinearForm<Ring>& g) {
     const auto [x, y] = factors(f);
     if (order(x, factors(g).first) == Sign::Zero) {
       add(through_x(x, nullptr), FamilyKind::Pencil);
@@ -249,7 +249,7 @@ class OnSkewPair {
     }
   }
 
-  void two_pencils(const Form<Ring>& f) {
+  void two_pencils(const BilinearForm<Ring>& f) {
     const auto [x, y] = factors(f);
     std::vector<Arc> all = through_x(x, &y);
     const auto first = static_cast<std::ptrdiff_t>(all.size());

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "linespace/deadline_internal.h"
 #include "linespace/exact_position_internal.h"
 #include "linespace/occluder_source_internal.h"
 #include "linespace/polygon_visibility_internal.h"
@@ -226,12 +227,7 @@ class PairSearch {
 }  // namespace
 
 std::function<bool()> stop_of(const VisibilityRequest& request) {
-  return [started = std::chrono::steady_clock::now(), stop = request.stop,
-          budget = request.budget_seconds] {
-    const std::chrono::duration<double> spent =
-        std::chrono::steady_clock::now() - started;
-    return stop.stop_requested() || spent.count() > budget;
-  };
+  return [deadline = Deadline(request)] { return deadline.passed(); };
 }
 
 Decision decide(std::span<const Triangle> a, std::span<const Triangle> b,

@@ -10,7 +10,6 @@ namespace {
 
 using internal::cross;
 using internal::dot;
-using Point = Eigen::Vector3d;
 
 RingVector difference(const HomogeneousPoint& p, const HomogeneousPoint& q) {
   RingVector out;
@@ -240,17 +239,17 @@ bool meets_polygon(const ExactLine& line, const Portal& p) {
 
 void set_range(Meeting& m, const Ring& radicand) {
   m.first = m.last = m.touches.front().at;
-  for (const Touch& t : m.touches) {
+  for (const PortalTouch& t : m.touches) {
     if (compare(t.at, m.first, radicand) == Sign::Negative) m.first = t.at;
     if (compare(t.at, m.last, radicand) == Sign::Positive) m.last = t.at;
   }
 }
 
-Touch touch_corner(const ExactLine& line, const Portal& p, int portal, int i) {
+PortalTouch touch_corner(const ExactLine& line, const Portal& p, int portal, int i) {
   return {{PortalGenerator::Kind::Vertex, portal, i},
           place_of_point(line.coordinates(), p.corners[i])};
 }
-Touch touch_edge(const ExactLine& line, const Portal& p, int portal, int i) {
+PortalTouch touch_edge(const ExactLine& line, const Portal& p, int portal, int i) {
   return {{PortalGenerator::Kind::Edge, portal, i},
           place_on_edge(line.coordinates(), p.edges[i])};
 }

@@ -450,7 +450,7 @@ LineFamilies all_families(PortalState& state, int portal) {
 // variables: at most two lines, unless the form vanishes on W and all are a pencil.
 bool is_extremal(const PortalState& state, const HeldLine& held) {
   RowSpace space;
-  for (const Contact& c : held.contacts) {
+  for (const PortalContact& c : held.contacts) {
     if (c.point >= 0) {
       add_star(space, state.points[c.point]);
     } else {

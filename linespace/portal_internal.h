@@ -55,7 +55,7 @@ struct Place {
 [[nodiscard]] Sign compare(const Place& a, const Place& b, const Ring& radicand);
 
 /// A generator that a line touches, and where.  Its index is the cleaned portal's.
-struct Touch {
+struct PortalTouch {
   PortalGenerator generator;
   Place at;
 };
@@ -64,7 +64,7 @@ struct Touch {
 struct Meeting {
   bool in_plane = false;  ///< of a polygon
   bool along = false;     ///< a slit lies on the line
-  std::vector<Touch> touches;
+  std::vector<PortalTouch> touches;
   Place first, last;
 };
 

@@ -82,7 +82,7 @@ bool Search::crossing_edges(const PortalGenerator& a, const PortalGenerator& b) 
 
 void Search::set_contacts(HeldLine& held) {
   const Ring& radicand = held.line.coordinates().radicand;
-  std::vector<Touch> touches;
+  std::vector<PortalTouch> touches;
   held.contacts.clear();
   held.edges.clear();
   held.points.clear();
@@ -92,10 +92,10 @@ void Search::set_contacts(HeldLine& held) {
     touches.insert(touches.end(), m.touches.begin(), m.touches.end());
     if (m.in_plane) held.planes.push_back(static_cast<int>(i));
   }
-  std::ranges::stable_sort(touches, [&](const Touch& a, const Touch& b) {
+  std::ranges::stable_sort(touches, [&](const PortalTouch& a, const PortalTouch& b) {
     return compare(a.at, b.at, radicand) == Sign::Negative;
   });
-  for (Touch& t : touches) {
+  for (PortalTouch& t : touches) {
     if (held.contacts.empty() ||
         compare(held.contacts.back().at, t.at, radicand) != Sign::Zero) {
       held.contacts.push_back({t.at, {}});
@@ -103,7 +103,7 @@ void Search::set_contacts(HeldLine& held) {
     held.contacts.back().generators.push_back(t.generator);
     for (const int e : s_.edges_at(t.generator)) held.edges.push_back(e);
   }
-  for (Contact& c : held.contacts) {
+  for (PortalContact& c : held.contacts) {
     std::ranges::sort(c.generators);
     const PortalGenerator& g = c.generators.front();
     if (g.kind == Kind::Vertex) {
@@ -136,7 +136,7 @@ void Search::keep(HeldLine held) {
 
 /// Keeps a line if it stabs and is extremal.
 void Search::consider(const ExactLine& line) {
-  deadline_.check();
+  deadline_.check("stabbing lines");
   ++s_.statistics.candidates;
   for (int i = latest_; i >= 0; --i) {
     if (!meets(line, s_.portals[i])) return;
@@ -162,7 +162,7 @@ void Search::consider(std::array<int, 3> edges, int new_edge) {
   std::ranges::sort(edges);
   const auto [e, f, g] = edges;
   if (!quadruples_.insert({e, f, g, new_edge}).second) return;
-  deadline_.check();
+  deadline_.check("stabbing lines");
   const LineTransversals found = transversals(edge(e), edge(f), edge(g), edge(new_edge));
   for (const ExactLine& line : found.lines) consider(line);
 }
@@ -287,7 +287,7 @@ void Search::run(std::vector<HeldLine> old) {
     new_edges_.push_back(s_.first_edges[latest_] + i);
   }
   for (const HeldLine& line : old) {
-    deadline_.check();
+    deadline_.check("stabbing lines");
     if (!meets(line.line, portal_)) continue;
     HeldLine held = line;
     if (add_meeting(s_, held, latest_)) keep(std::move(held));
@@ -323,7 +323,7 @@ ExtremalStabbingLine as_public(const State& s, const HeldLine& held) {
   ExtremalStabbingLine out;
   out.kind = kind_of(held);
   out.planes = held.planes;
-  for (const Contact& c : held.contacts) {
+  for (const PortalContact& c : held.contacts) {
     StabbingContact contact{{}, c.fixed, rounded_place(held.line, c.at)};
     for (const PortalGenerator& g : c.generators) {
       contact.generators.push_back(as_named(s, g));
@@ -440,7 +440,7 @@ bool add_meeting(const PortalState& state, HeldLine& held, int portal) {
 
 ContactKey contact_key(const HeldLine& held) {
   ContactKey key;
-  for (const Contact& c : held.contacts) {
+  for (const PortalContact& c : held.contacts) {
     key.insert(key.end(), c.generators.begin(), c.generators.end());
   }
   for (const int p : held.planes) key.push_back({Kind::Plane, p, 0});
@@ -453,7 +453,7 @@ StabbingKind kind_of(const HeldLine& held) {
       std::ranges::any_of(held.meetings, [](const Meeting& m) { return m.along; })) {
     return StabbingKind::InPlane;
   }
-  const auto fixed = std::ranges::count_if(held.contacts, &Contact::fixed);
+  const auto fixed = std::ranges::count_if(held.contacts, &PortalContact::fixed);
   const auto sliding = static_cast<std::ptrdiff_t>(held.contacts.size()) - fixed;
   if (fixed == 2 && sliding == 0) return StabbingKind::VV;
   if (fixed == 0 && sliding == 4) return StabbingKind::EEEE;
@@ -498,7 +498,7 @@ bool PortalSequence::push(std::span<const Eigen::Vector3d> corners,
   std::vector<internal::HeldLine> old = std::exchange(s.held, {});
   try {
     internal::Search(s, deadline).run(old);
-  } catch (const internal::Stopped&) {
+  } catch (const Stopped&) {
     internal::remove_last(s);
     s.held = std::move(old);
     s.only_a_point = was_a_point;

@@ -2,18 +2,18 @@
 
 #pragma once
 
-#include <chrono>
 #include <map>
 #include <set>
 #include <vector>
 
+#include "linespace/deadline_internal.h"
 #include "linespace/portal_internal.h"
 #include "linespace/request.h"
 
 namespace sightline::internal {
 
 /// A contact of a line: what it touches in one place.
-struct Contact {
+struct PortalContact {
   Place at;
   std::vector<PortalGenerator> generators;
   bool fixed = false;
@@ -23,10 +23,10 @@ struct Contact {
 /// An extremal line with what holds it.  Edges and points are the sequence's numbers.
 struct HeldLine {
   ExactLine line;
-  std::vector<Meeting> meetings = {};  // one a portal
-  std::vector<Contact> contacts = {};  // along the line's own orientation
-  bool forward = true;                 // stabs in its own orientation
-  bool backward = true;                // stabs turned round
+  std::vector<Meeting> meetings = {};        // one a portal
+  std::vector<PortalContact> contacts = {};  // along the line's own orientation
+  bool forward = true;                       // stabs in its own orientation
+  bool backward = true;                      // stabs turned round
   // What families of stabbing lines next to it may be held by.
   std::vector<int> edges = {};   // touched edges, and those at touched corners
   std::vector<int> points = {};  // of fixed contacts
@@ -65,27 +65,6 @@ struct PortalState {
   int point_id(HomogeneousPoint p);
   /// The edges that a generator's corner or edge belongs to, one or two.
   [[nodiscard]] std::vector<int> edges_at(const PortalGenerator& generator) const;
-};
-
-/// Thrown, and caught within the module, when a request's time is over.
-struct Stopped {};
-
-/// The time that a request leaves, counted from when this is made.
-class Deadline {
- public:
-  explicit Deadline(const Request& request) : request_(request) {}
-  /// Throws Stopped when the budget is used up or a stop was asked for.
-  void check() const {
-    const std::chrono::duration<double> spent =
-        std::chrono::steady_clock::now() - started_;
-    if (request_.stop.stop_requested() || spent.count() >= request_.budget_seconds) {
-      throw Stopped();
-    }
-  }
-
- private:
-  const Request& request_;
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace sightline::internal

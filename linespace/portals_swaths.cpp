@@ -102,7 +102,7 @@ class Swaths {
     try {
       for (int i = 0; i < static_cast<int>(s_.held.size()); ++i) {
         if (!s_.held[i].planes.empty()) continue;
-        deadline_.check();
+        deadline_.check("stabbing lines");
         for (const Family& f : families_of(s_, s_.held[i])) members[f].push_back(i);
       }
       for (auto& [family, lines] : members) {
@@ -152,7 +152,7 @@ class Swaths {
   }
 
   void add(const Family& f, int a, int b) {
-    deadline_.check();
+    deadline_.check("stabbing lines");
     // Two lines through one point span the pencil, whichever edge of it is named.
     if (f.point >= 0 &&
         !pencils_.insert({f.point, std::min(a, b), std::max(a, b)}).second) {
@@ -164,7 +164,7 @@ class Swaths {
     StabbingSwath swath{{}, f.point >= 0, {0, 0, 0}, {a, b}, {}};
     if (f.point >= 0) {
       swath.vertex = rounded(s_.points[f.point]);
-      for (const Contact& c : s_.held[a].contacts) {
+      for (const PortalContact& c : s_.held[a].contacts) {
         for (const PortalGenerator& g : c.generators) {
           if (at_point(g, f.point)) add_generator(swath, g);
         }

@@ -80,7 +80,7 @@ std::optional<StabbingWitness> witness_in_doubles(const PortalState& s,
     for (int k = 0; k < 2; ++k) mean[k] += share * e[k];
   }
   const auto attempt = [&](const Ends& e) -> std::optional<StabbingWitness> {
-    deadline.check();
+    deadline.check("stabbing lines");
     if (e[0] == e[1]) return std::nullopt;
     for (const Eigen::Vector3d& p : e) {
       if (!std::ranges::all_of(p, is_admissible)) return std::nullopt;
@@ -128,7 +128,7 @@ std::optional<StabbingWitness> witness_in_rationals(const PortalState& s,
   std::vector<std::array<HomogeneousPoint, 2>> means;
   const auto attempt = [&](const auto& a,
                            const auto& b) -> std::optional<StabbingWitness> {
-    deadline.check();
+    deadline.check("stabbing lines");
     const std::array<HomogeneousPoint, 2> m{middle(a[0], b[0]), middle(a[1], b[1])};
     if (precedes(m[0], m[1]) == precedes(m[1], m[0])) return std::nullopt;
     if (!stabs_inside(s, line_through(m[0], m[1]))) return std::nullopt;
@@ -175,7 +175,7 @@ std::optional<StabbingWitness> extremal_witness(const PortalState& s) {
 bool has_room(const PortalState& s, const HeldLine& held) {
   const StabbingKind kind = kind_of(held);
   if (kind == StabbingKind::InPlane || kind == StabbingKind::Degenerate) return false;
-  for (const Contact& c : held.contacts) {
+  for (const PortalContact& c : held.contacts) {
     if (c.generators.size() != 1) return false;
   }
   if (kind == StabbingKind::EEEE) {
@@ -295,7 +295,7 @@ bool proved_thin(const PortalState& s, const HeldLine& held, const Deadline& dea
   const PlanesAt planes = planes_at(s, held);
   const std::vector<std::vector<Sign>> ways = ways_across(s, held, planes.portals);
   return std::ranges::none_of(ways, [&](const std::vector<Sign>& way) {
-    deadline.check();
+    deadline.check("stabbing lines");
     std::vector<PlueckerRow> rows;
     for (const int e : held.edges) {
       const Sign side = inner_side(s, held, s.edge_portals[e], planes, way);
@@ -345,7 +345,7 @@ StabbingRoom proved_room(const PortalState& s, const Deadline& deadline) {
     return StabbingRoom::Thin;
   }
   const auto open = [&](const HeldLine& held) {
-    deadline.check();
+    deadline.check("stabbing lines");
     return has_room(s, held);
   };
   if (s.portals.empty() || std::ranges::any_of(s.held, open)) return StabbingRoom::Open;
@@ -395,7 +395,7 @@ std::optional<StabbingWitness> PortalSequence::witness(const Request& request) c
     if (room == StabbingRoom::Open || room == StabbingRoom::Undecided) {
       if (auto w = internal::interior_witness(s, deadline)) return w;
     }
-  } catch (const internal::Stopped&) {
+  } catch (const Stopped&) {
     // An extremal line costs nothing more.
   }
   return internal::extremal_witness(s);
@@ -407,7 +407,7 @@ StabbingRoom PortalSequence::room(const Request& request) const {
     const StabbingRoom proved = internal::proved_room(*state_, deadline);
     if (proved != StabbingRoom::Undecided) return proved;
     if (internal::interior_witness(*state_, deadline)) return StabbingRoom::Open;
-  } catch (const internal::Stopped&) {
+  } catch (const Stopped&) {
     // Neither proof was found.
   }
   return StabbingRoom::Undecided;

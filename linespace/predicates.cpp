@@ -53,7 +53,7 @@ auto crossing_numerator(const Crossing<T>& p, const Crossing<T>& q) {
 // ---- points as balls and as integers
 // ----------------------------------------------------
 
-Vector<Ball> ball_difference(const Point3& p, const Point3& q) {
+Vector<BallNumber> ball_difference(const Point3& p, const Point3& q) {
   return {exact_difference(p[0], q[0]), exact_difference(p[1], q[1]),
           exact_difference(p[2], q[2])};
 }
@@ -105,7 +105,8 @@ std::optional<Sign> double_orient3d(const Point3& a, const Point3& b, const Poin
   return std::nullopt;
 }
 
-Ball ball_orient3d(const Point3& a, const Point3& b, const Point3& c, const Point3& d) {
+BallNumber ball_orient3d(const Point3& a, const Point3& b, const Point3& c,
+                         const Point3& d) {
   return dot(ball_difference(d, a), cross(ball_difference(b, a), ball_difference(c, a)));
 }
 
@@ -197,14 +198,14 @@ std::optional<Sign> double_compare_crossings(const LineThrough& edge,
 std::optional<Sign> interval_compare_crossings(const LineThrough& edge,
                                                const PlaneThrough& p,
                                                const PlaneThrough& q) {
-  const auto crossing = [&edge](const PlaneThrough& plane) -> Crossing<Ball> {
+  const auto crossing = [&edge](const PlaneThrough& plane) -> Crossing<BallNumber> {
     const auto n =
         cross(ball_difference(plane.b, plane.a), ball_difference(plane.c, plane.a));
     return {dot(ball_difference(edge.from, plane.a), n),
             dot(ball_difference(edge.to, edge.from), n)};
   };
-  const Crossing<Ball> at_p = crossing(p);
-  const Crossing<Ball> at_q = crossing(q);
+  const Crossing<BallNumber> at_p = crossing(p);
+  const Crossing<BallNumber> at_q = crossing(q);
   const auto numerator = sign_of(crossing_numerator(at_p, at_q));
   const auto along_p = sign_of(at_p.along);
   const auto along_q = sign_of(at_q.along);
@@ -266,7 +267,7 @@ std::optional<bool> double_collinear(const Point3& a, const Point3& b, const Poi
 
 std::optional<bool> interval_collinear(const Point3& a, const Point3& b,
                                        const Point3& c) {
-  for (const Ball& minor : cross(ball_difference(b, a), ball_difference(c, a)))
+  for (const BallNumber& minor : cross(ball_difference(b, a), ball_difference(c, a)))
     if (sign_of(minor)) return false;
   return std::nullopt;
 }

@@ -21,8 +21,8 @@ namespace sightline::internal {
 using Point3 = Eigen::Vector3d;
 
 /// The determinant whose sign orient3d() gives.
-[[nodiscard]] Ball ball_orient3d(const Point3& a, const Point3& b, const Point3& c,
-                                 const Point3& d);
+[[nodiscard]] BallNumber ball_orient3d(const Point3& a, const Point3& b, const Point3& c,
+                                       const Point3& d);
 
 [[nodiscard]] std::optional<Sign> double_orient3d(const Point3& a, const Point3& b,
                                                   const Point3& c, const Point3& d);

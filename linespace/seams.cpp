@@ -8,6 +8,7 @@
 
 #include "linespace/bvh_internal.h"
 #include "linespace/contact_internal.h"
+#include "linespace/deadline_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/seams_internal.h"
 #include "linespace/stage_internal.h"
@@ -133,10 +134,10 @@ std::vector<int> polygons_met(std::span<const Polygon> polygons,
   const auto exact = [](const ExactPosition& p) {
     return ExactPoint{Rational(p.exact[0]), Rational(p.exact[1]), Rational(p.exact[2])};
   };
-  for (const ExactContact& contact :
-       line_contacts(scene, faces, exact(segment[0]), exact(segment[1]))) {
-    if (contact.to < 0 || contact.from > 1) continue;
-    for (const Touch& touch : contact.touches) {
+  const LineScan scan(scene, faces, exact(segment[0]), exact(segment[1]));
+  for (int contact = 0; contact < scan.size(); ++contact) {
+    if (scan.to(contact) < 0 || scan.from(contact) > 1) continue;
+    for (const Touch& touch : scan.touches(contact)) {
       met.push_back(number[scene.faces()[touch.face].source]);
     }
   }
@@ -156,7 +157,7 @@ void check_seam(double seam) {
 SeamAnswer polygon_visibility(const VisibilityQuestion& question, double seam,
                               const VisibilityRequest& request) {
   check_seam(seam);
-  const auto start = std::chrono::steady_clock::now();
+  const internal::Deadline deadline(request);
   SeamAnswer result;
   result.grown = question;
   std::vector<int> owner(question.occluders.size());
@@ -176,7 +177,7 @@ SeamAnswer polygon_visibility(const VisibilityQuestion& question, double seam,
   to_owners(result.answer.occluders);
   if (seam == 0 || result.answer.verdict != Verdict::Hidden) return result;
   VisibilityRequest rest = request;
-  rest.budget_seconds = what_is_left(request, start).budget_seconds;
+  rest.budget_seconds = deadline.what_is_left(request).budget_seconds;
   const VisibilityAnswer open = polygon_visibility(question, rest);
   result.answer.cost += open.cost;
   result.closed_unknown = open.verdict == Verdict::Undecided;

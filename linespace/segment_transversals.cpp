@@ -27,6 +27,7 @@
 #include <mutex>
 #include <string>
 
+#include "linespace/deadline_internal.h"
 #include "linespace/scene.h"
 #include "linespace/segment_transversals_internal.h"
 #include "linespace/stop_scope_internal.h"
@@ -212,7 +213,7 @@ class Search {
  public:
   Search(std::span<const LineThrough> segments, std::span<const LineThrough> lines,
          const TransversalRequest& request)
-      : request_(request), started_(std::chrono::steady_clock::now()) {
+      : request_(request), deadline_(request) {
     for (const LineThrough& l : segments) elements_.push_back({l, true});
     for (const LineThrough& l : lines) elements_.push_back({l, false});
     n_ = static_cast<int>(elements_.size());
@@ -268,12 +269,7 @@ class Search {
   }
 
   bool stopped() {
-    const double seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - started_)
-            .count();
-    if (seconds > request_.budget_seconds || request_.stop.stop_requested()) {
-      stopped_ = true;
-    }
+    stopped_ = stopped_ || deadline_.passed();
     return stopped_;
   }
   // The work hears a stop.
@@ -411,8 +407,8 @@ class Search {
         if (common.hi - common.lo < -off) continue;
         if (common.hi - common.lo <= off) return Outcome::Unsure;
         if (!ready) {
-          const Form<double> ff{{{f.f[0][0], f.f[0][1]}, {f.f[1][0], f.f[1][1]}}};
-          const Form<double> gg{{{g.f[0][0], g.f[0][1]}, {g.f[1][0], g.f[1][1]}}};
+          const BilinearForm<double> ff{{{f.f[0][0], f.f[0][1]}, {f.f[1][0], f.f[1][1]}}};
+          const BilinearForm<double> gg{{{g.f[0][0], g.f[0][1]}, {g.f[1][0], g.f[1][1]}}};
           const Quadratic<double> q = resultant(ff, gg);
           h = {q.h0, q.h1 / 2, q.h2};
           // Two products in the outer coefficients, two in the halved middle one.
@@ -517,7 +513,7 @@ class Search {
   }
 
   const TransversalRequest& request_;
-  std::chrono::steady_clock::time_point started_;
+  const Deadline deadline_;
   std::vector<Element> elements_;
   int n_ = 0, bounded_ = 0;
   std::atomic<bool> stopped_ = false;

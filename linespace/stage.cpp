@@ -11,11 +11,14 @@ Stopped::Stopped(std::string stage, double share)
 
 namespace internal {
 
-Stage::Stage(const Request& request, std::string name, Clock::time_point start)
+Stage::Stage(const Request& request, std::string name)
+    : Stage(request, std::move(name), Deadline(request)) {}
+
+Stage::Stage(const Request& request, std::string name, const Deadline& deadline)
     : request_(request),
       name_(std::move(name)),
-      start_(start),
-      stop_([this] { return must_stop(request_, start_); }),
+      deadline_(deadline),
+      stop_([this] { return deadline_.passed(); }),
       scope_(stop_, &name_) {
   check(0);
 }
@@ -33,7 +36,7 @@ void Stage::begin(std::string name) {
 }
 
 void Stage::check(double share) {
-  if (must_stop(request_, start_)) throw Stopped(name_, share);
+  if (stopped()) throw Stopped(name_, share);
   if (!request_.progress) return;
   const std::scoped_lock lock(telling_);
   request_.progress(name_, share);

@@ -10,7 +10,7 @@
 
 namespace sightline {
 
-using internal::Form;
+using internal::BilinearForm;
 using internal::Quadratic;
 using internal::Ring;
 using internal::Surd;
@@ -53,17 +53,17 @@ using FourLines = Four<const LineThrough*>;
 
 // ---- forms of a skew pair -----------------------------------------------------------
 
-bool all_zero(const Form<Ring>& f) {
+bool all_zero(const BilinearForm<Ring>& f) {
   return is_zero(f.f[0][0]) && is_zero(f.f[0][1]) && is_zero(f.f[1][0]) &&
          is_zero(f.f[1][1]);
 }
 
 // A product of a form in x and one in y: the third line meets one of the two.
-bool reducible(const Form<Ring>& f) {
+bool reducible(const BilinearForm<Ring>& f) {
   return is_zero(f.f[0][0] * f.f[1][1] - f.f[0][1] * f.f[1][0]);
 }
 
-bool proportional(const Form<Ring>& f, const Form<Ring>& g) {
+bool proportional(const BilinearForm<Ring>& f, const BilinearForm<Ring>& g) {
   const Four<const Ring*> a{&f.f[0][0], &f.f[0][1], &f.f[1][0], &f.f[1][1]};
   const Four<const Ring*> b{&g.f[0][0], &g.f[0][1], &g.f[1][0], &g.f[1][1]};
   for (int i = 0; i < 4; ++i) {
@@ -75,7 +75,8 @@ bool proportional(const Form<Ring>& f, const Form<Ring>& g) {
 }
 
 // y with F(x, y) = 0, or (0, 0) when x is a factor of F.
-std::array<Surd, 2> other_parameter(const Form<Ring>& f, const std::array<Surd, 2>& x) {
+std::array<Surd, 2> other_parameter(const BilinearForm<Ring>& f,
+                                    const std::array<Surd, 2>& x) {
   return {x[0] * f.f[0][1] + x[1] * f.f[1][1], -(x[0] * f.f[0][0] + x[1] * f.f[1][0])};
 }
 
@@ -99,8 +100,8 @@ Ring ring_orient3d(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
          u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-Form<Ring> ring_form(const LineThrough& l, const LineThrough& m,
-                     const LineThrough& third) {
+BilinearForm<Ring> ring_form(const LineThrough& l, const LineThrough& m,
+                             const LineThrough& third) {
   const auto at = [&third](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
     return ring_orient3d(p, q, third.from, third.to);
   };
@@ -110,7 +111,7 @@ Form<Ring> ring_form(const LineThrough& l, const LineThrough& m,
 // The zeros of F and G on P1 x P1.  H vanishes identically exactly when they have a
 // common factor in y, or are proportional, or one is zero; a common factor in x shows as
 // a double root at which both leave y free.
-CommonZeros common_zeros(const Form<Ring>& f, const Form<Ring>& g) {
+CommonZeros common_zeros(const BilinearForm<Ring>& f, const BilinearForm<Ring>& g) {
   const bool no_f = all_zero(f);
   const bool no_g = all_zero(g);
   if (no_f && no_g) return {TransversalClass::MeetingTwoLines, {}};
@@ -385,11 +386,11 @@ std::optional<TransversalClass> interval_transversal_class(const FourLines& l) {
   }
   // The differences are exact, so l[0]->from can be the origin of all.
   const auto difference = [&l](const Eigen::Vector3d& p) {
-    Vector<Ball> out;
+    Vector<BallNumber> out;
     for (int k = 0; k < 3; ++k) out[k] = exact_difference(p[k], l[0]->from[k]);
     return out;
   };
-  Points<Ball> p;
+  Points<BallNumber> p;
   for (int i = 0; i < 4; ++i) {
     p.from[i] = difference(l[i]->from);
     p.to[i] = difference(l[i]->to);

@@ -39,7 +39,7 @@ namespace internal {
 
 /// f[a][b] of the notation above.
 template <class T>
-struct Form {
+struct BilinearForm {
   T f[2][2];
 };
 /// h0 x0^2 + h1 x0 x1 + h2 x1^2.
@@ -49,15 +49,15 @@ struct Quadratic {
 };
 
 template <class T>
-[[nodiscard]] Quadratic<T> resultant(const Form<T>& f, const Form<T>& g) {
+[[nodiscard]] Quadratic<T> resultant(const BilinearForm<T>& f, const BilinearForm<T>& g) {
   return {f.f[0][0] * g.f[0][1] - f.f[0][1] * g.f[0][0],
           (f.f[0][0] * g.f[1][1] + f.f[1][0] * g.f[0][1]) -
               (f.f[0][1] * g.f[1][0] + f.f[1][1] * g.f[0][0]),
           f.f[1][0] * g.f[1][1] - f.f[1][1] * g.f[1][0]};
 }
 
-[[nodiscard]] Form<Ring> ring_form(const LineThrough& l, const LineThrough& m,
-                                   const LineThrough& third);
+[[nodiscard]] BilinearForm<Ring> ring_form(const LineThrough& l, const LineThrough& m,
+                                           const LineThrough& third);
 
 /// The line through the points (x0 : x1) of l and (y0 : y1) of m, in Q(sqrt D); nullopt
 /// when both are at infinity.
@@ -73,7 +73,8 @@ struct CommonZeros {
   std::vector<std::array<std::array<Surd, 2>, 2>> zeros;  // x and y, finite or not
   Ring radicand = 0;
 };
-[[nodiscard]] CommonZeros common_zeros(const Form<Ring>& f, const Form<Ring>& g);
+[[nodiscard]] CommonZeros common_zeros(const BilinearForm<Ring>& f,
+                                       const BilinearForm<Ring>& g);
 
 /// The stages of transversal_class(), for tests and benchmarks: nullopt is undecided, and
 /// of the integers also "does not fit" or "not by the discriminant alone".

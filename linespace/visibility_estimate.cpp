@@ -18,6 +18,7 @@
 #include <thread>
 #include <vector>
 
+#include "linespace/deadline_internal.h"
 #include "linespace/line_sampling.h"
 #include "linespace/occlusion_internal.h"
 
@@ -139,19 +140,14 @@ Estimate mean(double n, double sum, double squared_sum) {
 
 // Runs blocks 0, 1, ... until all are done or it is time to stop; what was done.
 std::vector<BlockResult> run(const Estimator& estimator, std::int64_t samples,
-                             std::chrono::steady_clock::time_point start,
-                             const Request& request) {
+                             const internal::Deadline& deadline, const Request& request) {
   const std::int64_t blocks = (samples + kBlock - 1) / kBlock;
   std::vector<BlockResult> results(static_cast<std::size_t>(blocks));
   std::atomic<std::int64_t> next = 0;
   std::mutex telling;
   std::int64_t told = 0;
-  const auto out_of_time = [&] {
-    const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start;
-    return request.stop.stop_requested() || used.count() >= request.budget_seconds;
-  };
   const auto work = [&](int) {
-    while (!out_of_time()) {
+    while (!deadline.passed()) {
       const std::int64_t b = next++;
       if (b >= blocks) return;
       results[static_cast<std::size_t>(b)] =
@@ -181,14 +177,14 @@ VisibilityEstimate estimate_visibility(const OcclusionIndex& index,
                                        std::span<const int> faces_b,
                                        const EstimateOptions& options,
                                        const Request& request) {
-  const auto start = std::chrono::steady_clock::now();
+  const internal::Deadline deadline(request);
   if (options.samples < 1) {
     throw InvalidInput("visibility estimate: at least one sample is needed");
   }
   check(index.scene(), faces_a, "A");
   check(index.scene(), faces_b, "B");
   const Estimator estimator(index, faces_a, faces_b, options, request);
-  const auto results = run(estimator, options.samples, start, request);
+  const auto results = run(estimator, options.samples, deadline, request);
 
   VisibilityEstimate out;
   out.samples =
@@ -214,8 +210,7 @@ VisibilityEstimate estimate_visibility(const OcclusionIndex& index,
     out.fraction.standard_error = out.line_measure.standard_error =
         std::numeric_limits<double>::infinity();
   }
-  out.seconds =
-      std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  out.seconds = deadline.seconds();
   return out;
 }
 

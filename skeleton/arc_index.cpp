@@ -70,10 +70,10 @@ ArcIndex::ArcIndex(const Scene& scene, const Skeleton& skeleton, const EndIndex&
   };
   std::array<std::vector<BoxItem>, kCharts> items;
   StageCounts counts;
+  const Request request;
   for_each_parallel(
-      (count + kArcsAtOnce - 1) / kArcsAtOnce, Request{},
-      std::chrono::steady_clock::now(), {0, 1}, counts,
-      [] { return std::make_unique<Nothing>(); },
+      (count + kArcsAtOnce - 1) / kArcsAtOnce, request, Deadline(request),
+      "boxes of arcs", counts, [] { return std::make_unique<Nothing>(); },
       [&](Nothing&, std::size_t batch) {
         std::vector<Found> found;
         std::vector<ChartBox> boxes;

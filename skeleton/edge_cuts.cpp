@@ -118,12 +118,4 @@ std::vector<CutInterval> CutUnion::complement() const {
   return open;
 }
 
-bool CutUnion::interior_contains(const Cut& cut) const {
-  return std::any_of(intervals_.begin(), intervals_.end(), [&](const CutInterval& i) {
-    const bool after = i.from.kind == CutKind::Start || order(i.from, cut) < 0;
-    const bool before = i.to.kind == CutKind::End || order(cut, i.to) < 0;
-    return after && before;
-  });
-}
-
 }  // namespace sightline::internal

@@ -82,8 +82,6 @@ class CutUnion {
   }
   /// The open intervals of (Start, End) that no added interval meets, in order.
   [[nodiscard]] std::vector<CutInterval> complement() const;
-  /// The interior of the union has `cut` inside.
-  [[nodiscard]] bool interior_contains(const Cut& cut) const;
   [[nodiscard]] std::span<const CutInterval> intervals() const { return intervals_; }
   [[nodiscard]] bool empty() const { return intervals_.empty(); }
 

@@ -69,7 +69,7 @@ BoundedForm OuterPair::form(const Carrier& g) const {
   return out;
 }
 
-Form<Ring> OuterPair::exact_form(const Carrier& g) const {
+BilinearForm<Ring> OuterPair::exact_form(const Carrier& g) const {
   return ring_form({at(p[0]), at(p[1])}, {at(q[0]), at(q[1])},
                    {at(g.points[0]), at(g.points[1])});
 }
@@ -87,7 +87,7 @@ void enclose_root(const BoundedLinear& l, CurveCut& cut) {
   cut.hi = y_low > 0 ? std::min(1.0, x_high / (x_high + y_low) * (1 + slack)) : 1;
 }
 
-const Form<Ring>& EeeCurve::exact_form() const {
+const BilinearForm<Ring>& EeeCurve::exact_form() const {
   if (!exact_form_) exact_form_ = pair_.exact_form(carriers_[middle_]);
   return *exact_form_;
 }
@@ -112,7 +112,7 @@ auto EeeCurve::linear(const CurveCut& cut, const Orient& orient,
     default: {
       const T a0 = orient(cut.plane, pair_.q[0]);
       const T a1 = orient(cut.plane, pair_.q[1]);
-      const Form<T>& f = form();
+      const BilinearForm<T>& f = form();
       return std::array<T, 2>{a1 * f.f[0][0] - a0 * f.f[0][1],
                               a1 * f.f[1][0] - a0 * f.f[1][1]};
     }
@@ -124,12 +124,12 @@ std::array<Ring, 2> EeeCurve::exact_linear(const CurveCut& cut) const {
     return ring_orient3d(pair_.at(plane[0]), pair_.at(plane[1]), pair_.at(plane[2]),
                          pair_.at(point));
   };
-  return linear(cut, orient, [&]() -> const Form<Ring>& { return exact_form(); });
+  return linear(cut, orient, [&]() -> const BilinearForm<Ring>& { return exact_form(); });
 }
 
-Form<Ball> EeeCurve::ball_form(int carrier) const {
+BilinearForm<BallNumber> EeeCurve::ball_form(int carrier) const {
   const auto& g = carriers_[carrier].points;
-  Form<Ball> form;
+  BilinearForm<BallNumber> form;
   for (int a = 0; a < 2; ++a) {
     for (int b = 0; b < 2; ++b) {
       form.f[a][b] = ball_orient3d(pair_.at(pair_.p[a]), pair_.at(pair_.q[b]),
@@ -595,7 +595,7 @@ Sign EeeCurve::order_at(const CurveCut& cut, int carrier, const BoundedForm& for
   }
   ++stage_counts.by_exact;
   const auto& f = exact_form().f;
-  const Form<Ring> exact_g = pair_.exact_form(g_line);
+  const BilinearForm<Ring> exact_g = pair_.exact_form(g_line);
   const auto& g = exact_g.f;
   const auto exact_beside = [&](const std::array<std::int32_t, 2>& edge,
                                 const Carrier& line) {

@@ -55,7 +55,7 @@ struct OuterPair {
 
   [[nodiscard]] const Point& at(std::int32_t id) const { return scene->point(id); }
   [[nodiscard]] BoundedForm form(const Carrier& g) const;
-  [[nodiscard]] Form<Ring> exact_form(const Carrier& g) const;
+  [[nodiscard]] BilinearForm<Ring> exact_form(const Carrier& g) const;
 };
 
 /// What cuts the curve at a position.
@@ -189,11 +189,11 @@ class EeeCurve {
   };
   [[nodiscard]] Root exact(const CurveCut& cut) const;
   [[nodiscard]] std::optional<Rational> rational_parameter(const CurveCut& cut) const;
-  [[nodiscard]] const Form<Ring>& exact_form() const;
+  [[nodiscard]] const BilinearForm<Ring>& exact_form() const;
   template <class Orient, class CurveForm>
   [[nodiscard]] auto linear(const CurveCut& cut, const Orient& orient,
                             const CurveForm& form) const;
-  [[nodiscard]] Form<Ball> ball_form(int carrier) const;
+  [[nodiscard]] BilinearForm<BallNumber> ball_form(int carrier) const;
   [[nodiscard]] std::optional<double> rounded_from_balls(const CurveCut& cut) const;
   [[nodiscard]] std::array<Ring, 2> exact_linear(const CurveCut& cut) const;
   [[nodiscard]] std::array<Ring, 3> exact_quadratic(int carrier) const;
@@ -206,7 +206,7 @@ class EeeCurve {
   const std::vector<Carrier>& carriers_;
   int middle_;
   BoundedForm form_;
-  mutable std::optional<Form<Ring>> exact_form_;
+  mutable std::optional<BilinearForm<Ring>> exact_form_;
   mutable std::vector<Rational> given_;
 };
 

@@ -63,8 +63,7 @@ void drop_arcs_off_source(const Generators& g, const EeePart& part,
 }  // namespace
 
 void add_eee(const Generators& generators, const SkeletonRequest& request,
-             std::chrono::steady_clock::time_point start, Skeleton& skeleton,
-             NodeJoiner& nodes) {
+             const Deadline& deadline, Skeleton& skeleton, NodeJoiner& nodes) {
   const EeePart part = eee_part(generators, request);
   const std::vector<int> firsts = asked_ridges(generators, part);
   skeleton.edges_asked = firsts.size();
@@ -72,17 +71,17 @@ void add_eee(const Generators& generators, const SkeletonRequest& request,
     skeleton.complete = skeleton.complete && firsts.empty();
     return;
   }
-  const Stage stage(request, "EEE arcs", start);
+  const Stage stage(request, "EEE arcs", deadline);
   const Carriers carriers(generators);
   std::optional<SkeletonLines> lines;
-  if (part.by_lines) lines.emplace(generators.scene(), what_is_left(request, start));
+  if (part.by_lines) lines.emplace(generators.scene(), deadline.what_is_left(request));
   skeleton.stopped_by = for_each_parallel(
-      firsts.size(), request, start, "EEE arcs", skeleton.predicates,
+      firsts.size(), request, deadline, "EEE arcs", skeleton.predicates,
       [&] { return std::make_unique<EdgePairs>(generators, carriers, part); },
       [&](EdgePairs& pairs, std::size_t i) {
         std::vector<FoundArc> arcs;
         pairs.visit(
-            firsts[i], [&] { return must_stop(request, start); }, arcs);
+            firsts[i], [&] { return deadline.passed(); }, arcs);
         if (lines) drop_arcs_off_source(generators, part, *lines, arcs);
         std::sort(arcs.begin(), arcs.end(), [](const FoundArc& a, const FoundArc& b) {
           return std::pair(a.arc.edges, a.arc.range) <

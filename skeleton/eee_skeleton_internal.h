@@ -14,7 +14,6 @@ namespace sightline::internal {
 /// Adds the EEE arcs and their nodes to a skeleton that holds the EV part of the same
 /// request, whose VEE and EVE nodes are shared.
 void add_eee(const Generators& generators, const SkeletonRequest& request,
-             std::chrono::steady_clock::time_point start, Skeleton& skeleton,
-             NodeJoiner& nodes);
+             const Deadline& deadline, Skeleton& skeleton, NodeJoiner& nodes);
 
 }  // namespace sightline::internal

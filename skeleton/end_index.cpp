@@ -33,7 +33,7 @@ using Ends = std::vector<SkeletonLines::EndPiece>;
 
 EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& request)
     : skeleton_(skeleton) {
-  const auto start = std::chrono::steady_clock::now();
+  const internal::Deadline deadline(request);
   std::optional<SkeletonLines> lines;
   try {
     lines.emplace(scene, request);
@@ -74,7 +74,7 @@ EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& 
   struct Nothing {};
   StageCounts counts;
   internal::for_each_parallel(
-      lines ? (count + kArcsAtOnce - 1) / kArcsAtOnce : 0, request, start, "far ends",
+      lines ? (count + kArcsAtOnce - 1) / kArcsAtOnce : 0, request, deadline, "far ends",
       counts, [] { return std::make_unique<Nothing>(); },
       [&](Nothing&, std::size_t batch) {
         std::vector<Ends> found;

@@ -259,8 +259,7 @@ void add_pair(const FoundFacePair& found, NodeJoiner& nodes) {
 }  // namespace
 
 void add_face_pairs(const Generators& generators, const SkeletonRequest& request,
-                    std::chrono::steady_clock::time_point start, Skeleton& skeleton,
-                    NodeJoiner& nodes) {
+                    const Deadline& deadline, Skeleton& skeleton, NodeJoiner& nodes) {
   const Scene& scene = generators.scene();
   const FacetPart part = facet_part(generators, request);
   std::vector<int> firsts;
@@ -272,14 +271,14 @@ void add_face_pairs(const Generators& generators, const SkeletonRequest& request
     skeleton.complete = skeleton.complete && firsts.empty();
     return;
   }
-  const Stage stage(request, "FF nodes", start);
+  const Stage stage(request, "FF nodes", deadline);
   std::vector<Box> boxes;
   for (const Facet& facet : scene.facets()) {
     boxes.push_back(box_of_facet(generators, facet));
   }
   const Bvh tree(boxes);
   skeleton.stopped_by = for_each_parallel(
-      firsts.size(), request, start, "FF nodes", skeleton.predicates,
+      firsts.size(), request, deadline, "FF nodes", skeleton.predicates,
       [&] { return std::make_unique<FacePairs>(generators, tree, part); },
       [&](FacePairs& pairs, std::size_t i) {
         std::vector<FoundFacePair> found;

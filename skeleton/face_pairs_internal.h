@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "linespace/deadline_internal.h"
 #include "linespace/rational_internal.h"
 #include "skeleton/generators_internal.h"
 #include "skeleton/node_contacts_internal.h"
@@ -62,7 +63,6 @@ class FacePairs {
 
 /// Adds the FF nodes to a skeleton, and to its degenerate nodes those that are new.
 void add_face_pairs(const Generators& generators, const SkeletonRequest& request,
-                    std::chrono::steady_clock::time_point start, Skeleton& skeleton,
-                    NodeJoiner& nodes);
+                    const Deadline& deadline, Skeleton& skeleton, NodeJoiner& nodes);
 
 }  // namespace sightline::internal

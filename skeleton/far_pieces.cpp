@@ -592,7 +592,7 @@ class EeeFamily {
     const auto& m = carriers_.all[middle_].points;
     const auto at = [&](std::int32_t p) { return exact_point(pair_.at(p)); };
     const auto form = [&](const ExactPoint& g0, const ExactPoint& g1) {
-      Form<Rational> values;
+      BilinearForm<Rational> values;
       for (int a = 0; a < 2; ++a) {
         for (int b = 0; b < 2; ++b) {
           values.f[a][b] = exact_orient(at(pair_.p[a]), at(pair_.q[b]), g0, g1);

@@ -83,14 +83,17 @@ Rational InPlaneSide::value(const Point& p, const Point& q, const Point& x) cons
          (Rational(q[j]) - Rational(p[j])) * (Rational(x[i]) - Rational(p[i]));
 }
 
+Generators::Generators(const Scene& scene, EventMode events, const Request& request)
+    : Generators(scene, events, request, Deadline(request)) {}
+
 Generators::Generators(const Scene& scene, EventMode events, const Request& request,
-                       Stage::Clock::time_point start)
+                       const Deadline& deadline)
     : scene_(&scene),
       events_(events),
       face_tree_(std::vector<Box>{}),
       ridge_tree_(std::vector<Box>{}),
       blocker_tree_(std::vector<Box>{}) {
-  Stage stage(request, "faces", start);
+  Stage stage(request, "faces", deadline);
   face_boxes_ = boxes_of_faces(scene);
   face_tree_ = Bvh(face_boxes_);
   stage.begin("planes");
@@ -272,7 +275,6 @@ void Generators::find_inside(const Request& request, Stage& stage) {
     inside_[i] =
         internal::in_material(*scene_, *solids_, scene_->point(stars_[i].point)) ? 1 : 0;
   });
-  for (const auto flag : inside_) inside_count_ += flag;
 }
 
 std::span<const std::int32_t> Generators::objects_of(const Generator& x) const {

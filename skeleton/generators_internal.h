@@ -11,6 +11,7 @@
 
 #include "linespace/bvh_internal.h"
 #include "linespace/contact_internal.h"
+#include "linespace/deadline_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
 #include "linespace/stage_internal.h"
@@ -123,12 +124,13 @@ struct Star {
 
 class Generators {
  public:
-  /// Of the request only budget (counted from `start`), stop, progress and threads are
-  /// heard.
-  /// Throws Stopped.  Cost: n log n for n faces where few of them touch.
+  /// Of the request only progress and threads are heard; the deadline is another's
+  /// where this is a part of longer work.  Throws Stopped.  Cost: n log n for n faces
+  /// where few of them touch.
   explicit Generators(const Scene& scene, EventMode events = EventMode::Solid,
-                      const Request& request = {},
-                      Stage::Clock::time_point start = Stage::Clock::now());
+                      const Request& request = {});
+  Generators(const Scene& scene, EventMode events, const Request& request,
+             const Deadline& deadline);
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   /// Polygon mode: ridges() holds creases at which lines only end too.
@@ -154,7 +156,6 @@ class Generators {
   [[nodiscard]] int star_of_point(int point) const { return star_of_point_[point]; }
   /// The corner lies strictly inside a solid: it takes part in no event.
   [[nodiscard]] bool inside_solid(int star) const { return inside_[star] != 0; }
-  [[nodiscard]] int inside_count() const { return inside_count_; }
 
   /// The point is strictly inside a closed object, in its material
   /// (solid_index_internal.h).
@@ -262,7 +263,6 @@ class Generators {
   std::vector<Star> stars_;
   std::vector<std::int32_t> star_of_point_;
   std::vector<std::uint8_t> inside_;
-  int inside_count_ = 0;
   std::vector<std::uint8_t> convex_;
   std::vector<std::vector<std::array<std::int32_t, 2>>> outlines_;
   std::vector<std::uint8_t> touched_facets_;

@@ -9,11 +9,11 @@
 namespace sightline::internal {
 namespace {
 
-using Chord = std::array<Point, 2>;
+using FlatChord = std::array<Point, 2>;
 
 // The directions from the viewpoint to the edge's ends.  A coordinate is rounded in the
 // difference, thrice in the norm and in the quotient.
-Chord chord_of(const Point& at, const std::array<Point, 2>& edge) {
+FlatChord chord_of(const Point& at, const std::array<Point, 2>& edge) {
   return {(edge[0] - at).normalized(), (edge[1] - at).normalized()};
 }
 constexpr double kChordError = 16 * kUnitRoundoff;
@@ -21,7 +21,7 @@ constexpr double kChordError = 16 * kUnitRoundoff;
 // Around all directions to points of the edge: the chord's points made longer, by 1 / |m|
 // at most, with m its middle.  Each coordinate of m is off by kChordError and a rounding,
 // so |m| by sqrt(3) times that and its own roundings: less than 3 kChordError in all.
-Box box_of_directions(const Chord& chord) {
+Box box_of_directions(const FlatChord& chord) {
   Box box = box_of(chord);
   const double shortest = 0.5 * (chord[0] + chord[1]).norm() - 3 * kChordError;
   const double longer = shortest > 0 ? (1 + kChordError) / shortest
@@ -61,7 +61,7 @@ class OppositeCone {
   /// False proves that no point of a chord is in it.  With the edge's ends u and w seen
   /// from the viewpoint, the first plane is negative at w and the second positive at u:
   /// at -a u - b w, with a and b positive, it is the other way round.
-  [[nodiscard]] bool may_meet(const Chord& chord) const {
+  [[nodiscard]] bool may_meet(const FlatChord& chord) const {
     const std::array<double, 3> p{chord[0][0], chord[0][1], chord[0][2]};
     const std::array<double, 3> q{chord[1][0], chord[1][1], chord[1][2]};
     constexpr std::array<double, 3> off{kChordError, kChordError, kChordError};
@@ -81,7 +81,7 @@ class OppositeCone {
 std::vector<std::pair<std::uint32_t, std::uint32_t>> opposite_edges(
     const Point& viewpoint, std::span<const std::array<Point, 2>> edges) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  std::vector<Chord> chords;
+  std::vector<FlatChord> chords;
   std::vector<Box> boxes;
   std::vector<OppositeCone> cones;
   chords.reserve(edges.size());

@@ -20,6 +20,7 @@
 #include <thread>
 #include <utility>
 
+#include "linespace/deadline_internal.h"
 #include "linespace/predicates.h"
 #include "linespace/request.h"
 #include "linespace/stage_internal.h"
@@ -77,16 +78,16 @@ void for_each_of(std::size_t from, std::size_t to, std::size_t count,
 
 /// Calls step(worker, i) for i = 0, ..., count - 1 on several threads, with a worker per
 /// thread from make(), and consume(i, result) with what it returns: one at a time, in
-/// order, soon after, so that results need not be held.  Stops early once must_stop():
-/// what is finished by then is consumed, a prefix of all, so that a step that asks
-/// must_stop() itself may break off; one that calls hear_stop() does.  Stops, too, when
+/// order, soon after, so that results need not be held.  Stops early once the deadline
+/// has passed: what is finished by then is consumed, a prefix of all.  A step that asks
+/// the deadline itself may break off; one that calls hear_stop() does.  Stops, too, when
 /// consume returns false, after which nothing is consumed.  Returns why not all was
 /// consumed, or Nothing.  Progress is told under the name of the stage.
 template <class Make, class Step, class Consume>
 StoppedBy for_each_parallel(std::size_t count, const Request& request,
-                            std::chrono::steady_clock::time_point start,
-                            std::string_view stage, StageCounts& counts, Make&& make,
-                            Step&& step, Consume&& consume) {
+                            const Deadline& deadline, std::string_view stage,
+                            StageCounts& counts, Make&& make, Step&& step,
+                            Consume&& consume) {
   const int threads = threads_of(request);
   using Worker = decltype(make());
   using Result = decltype(step(*std::declval<Worker&>(), std::size_t{0}));
@@ -113,7 +114,7 @@ StoppedBy for_each_parallel(std::size_t count, const Request& request,
     return next++;
   };
   const std::function<bool()> stop = [&] {
-    return stopped.load(std::memory_order_relaxed) || must_stop(request, start);
+    return stopped.load(std::memory_order_relaxed) || deadline.passed();
   };
   // nullopt once it must stop.
   const auto unless_stopped = [&](std::size_t i) -> std::optional<Result> {

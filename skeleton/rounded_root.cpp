@@ -11,7 +11,7 @@ struct Approximate {
   double value, error;
 };
 
-Approximate rounded(const Ball& x) { return {x.hi, x.radius + 2 * std::abs(x.lo)}; }
+Approximate rounded(const BallNumber& x) { return {x.hi, x.radius + 2 * std::abs(x.lo)}; }
 
 // x / y is off by (error of x + |x / y| error of y) / least |y|, and by its own rounding.
 // The errors' roundings are covered by the factor 2.
@@ -27,18 +27,18 @@ std::optional<double> quotient(const Approximate& x, const Approximate& y) {
 
 }  // namespace
 
-std::optional<double> rounded_root(const Ball& at0, const Ball& at1) {
+std::optional<double> rounded_root(const BallNumber& at0, const BallNumber& at1) {
   return quotient(rounded(at0), rounded(at0 - at1));
 }
 
 // h is h0 + b s + a s^2, of slope r = +-sqrt(b^2 - 4 a h0) at its zeros (r - b) / 2a =
 // -2 h0 / (r + b); the one is taken in which nothing cancels.
-std::optional<double> rounded_root(const Quadratic<Ball>& h, bool rises) {
-  const Ball a = h.h0 - h.h1 + h.h2;
-  const Ball b = h.h1 - h.h0 - h.h0;
-  const Ball ah = a * h.h0;
-  const Ball twice = ah + ah;
-  const Ball discriminant = b * b - twice - twice;
+std::optional<double> rounded_root(const Quadratic<BallNumber>& h, bool rises) {
+  const BallNumber a = h.h0 - h.h1 + h.h2;
+  const BallNumber b = h.h1 - h.h0 - h.h0;
+  const BallNumber ah = a * h.h0;
+  const BallNumber twice = ah + ah;
+  const BallNumber discriminant = b * b - twice - twice;
   if (!(discriminant.hi > 4 * discriminant.radius)) return std::nullopt;
   const double root = std::sqrt(discriminant.hi);
   const double r = rises ? root : -root;

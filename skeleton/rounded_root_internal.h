@@ -13,10 +13,12 @@
 namespace sightline::internal {
 
 /// The zero of at0 (1 - s) + at1 s, off by at most kRangeError; nullopt: not certain.
-[[nodiscard]] std::optional<double> rounded_root(const Ball& at0, const Ball& at1);
+[[nodiscard]] std::optional<double> rounded_root(const BallNumber& at0,
+                                                 const BallNumber& at1);
 
 /// The zero s at which h0 (1 - s)^2 + h1 s (1 - s) + h2 s^2 rises, or falls; likewise.
-[[nodiscard]] std::optional<double> rounded_root(const Quadratic<Ball>& h, bool rises);
+[[nodiscard]] std::optional<double> rounded_root(const Quadratic<BallNumber>& h,
+                                                 bool rises);
 
 /// The range between two rounded positions, in order whatever rounding made of them: they
 /// may be nearer to each other than kRangeError, and at precision Double the signs that

@@ -18,7 +18,6 @@
 namespace sightline {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using internal::CornerViews;
 using internal::EvPart;
 using internal::Generators;
@@ -56,25 +55,25 @@ void add_view(const VertexView& view, bool eee_follows, NodeJoiner& nodes,
 }
 
 void build_ev(const Generators& generators, const SkeletonRequest& request,
-              Clock::time_point start, Skeleton& skeleton, NodeJoiner& nodes) {
-  const internal::Stage stage(request, "EV arcs", start);
+              const internal::Deadline& deadline, Skeleton& skeleton, NodeJoiner& nodes) {
+  const internal::Stage stage(request, "EV arcs", deadline);
   const EvPart part = internal::ev_part(generators, request);
   const std::vector<int> stars = internal::asked_stars(generators, part);
   const auto runs = internal::near_each_other(generators, stars);
   skeleton.vertices_asked = stars.size();
   std::optional<SkeletonLines> lines;
   if (part.by_lines) {
-    lines.emplace(generators.scene(), internal::what_is_left(request, start));
+    lines.emplace(generators.scene(), deadline.what_is_left(request));
   }
   const SkeletonLines* pieces = lines ? &*lines : nullptr;
   skeleton.stopped_by = internal::for_each_parallel(
-      runs.size(), request, start, "EV arcs", skeleton.predicates,
+      runs.size(), request, deadline, "EV arcs", skeleton.predicates,
       [&] {
         return std::make_unique<CornerViews>(generators, part, pieces,
                                              request.feature_size);
       },
       [&](CornerViews& viewer, std::size_t i) {
-        return viewer.views(runs[i], [&] { return internal::must_stop(request, start); });
+        return viewer.views(runs[i], [&] { return deadline.passed(); });
       },
       [&](std::size_t, std::vector<VertexView>&& views) {
         for (const VertexView& view : views) {
@@ -111,16 +110,9 @@ void ask_for_all(const Scene& scene, const SkeletonRequest& request, Skeleton& s
 
 }  // namespace
 
-Skeleton build_ev_skeleton(const Scene& scene, const SkeletonRequest& request) {
-  SkeletonRequest ev = request;
-  ev.ev = true;
-  ev.eee = ev.ff = false;
-  return build_skeleton(scene, ev);
-}
-
 Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
   check(request);
-  const auto start = Clock::now();
+  const internal::Deadline deadline(request);
   Skeleton skeleton;
   skeleton.events = request.events;
   skeleton.simplified = internal::simplified_by(scene, request.feature_size);
@@ -140,15 +132,16 @@ Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
     }
   };
   until_stopped([&] {
-    generators.emplace(scene, request.events, request, start);
+    generators.emplace(scene, request.events, request, deadline);
     skeleton.predicates = internal::difference(thread_stage_counts(), before);
-    if (request.ev) build_ev(*generators, request, start, skeleton, nodes);
-    if (request.eee) internal::add_eee(*generators, request, start, skeleton, nodes);
+    if (request.ev) build_ev(*generators, request, deadline, skeleton, nodes);
+    if (request.eee) internal::add_eee(*generators, request, deadline, skeleton, nodes);
   });
   nodes.finish_ends();
   if (generators && request.ff) {
-    until_stopped(
-        [&] { internal::add_face_pairs(*generators, request, start, skeleton, nodes); });
+    until_stopped([&] {
+      internal::add_face_pairs(*generators, request, deadline, skeleton, nodes);
+    });
   }
   return skeleton;
 }

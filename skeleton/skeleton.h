@@ -203,13 +203,9 @@ struct Skeleton {
   }
 };
 
-/// Builds the EV arcs of a scene with the nodes at their ends, and the EVE nodes.  What
-/// else lies along their lines: skeleton_lines.h.
-[[nodiscard]] Skeleton build_ev_skeleton(const Scene& scene,
-                                         const SkeletonRequest& request = {});
-
-/// Builds the kinds asked for: the EV part as build_ev_skeleton, then the EEE arcs with
-/// the nodes at their ends, which they share with the EV part where both are asked.
+/// Builds what is asked for: the EV arcs with the nodes at their ends and the EVE nodes;
+/// the EEE arcs with the nodes at theirs, which they share with the EV arcs where both
+/// are asked; the FF nodes.  What else lies along their lines: skeleton_lines.h.
 [[nodiscard]] Skeleton build_skeleton(const Scene& scene,
                                       const SkeletonRequest& request = {});
 

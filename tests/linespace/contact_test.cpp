@@ -18,14 +18,31 @@ namespace sightline {
 namespace {
 
 using internal::exact_point;
-using internal::ExactContact;
 using internal::ExactPoint;
-using internal::line_contacts;
 using internal::LineScan;
 using internal::Rational;
 using testing::AlignedBox;
 
 using Polygons = std::vector<std::vector<Point>>;
+
+/// A Contact with its exact ends along the line a + t (b - a).
+struct ExactContact {
+  Rational from, to;
+  bool blocked;
+  std::vector<Touch> touches;
+};
+
+/// All that a scan of the line through two points finds.
+template <class AnyPoint>
+std::vector<ExactContact> line_contacts(const Scene& scene, std::span<const int> faces,
+                                        const AnyPoint& a, const AnyPoint& b) {
+  const LineScan scan(scene, faces, a, b);
+  std::vector<ExactContact> out;
+  for (int c = 0; c < scan.size(); ++c) {
+    out.push_back({scan.from(c), scan.to(c), scan.blocked(c), scan.touches(c)});
+  }
+  return out;
+}
 
 PolygonSoup soup_of(const Polygons& polygons) {
   PolygonSoup soup;

@@ -510,16 +510,16 @@ TEST(FixedInt, ComputesLikeIntegers) {
   }
 }
 
-TEST(Ball, ContainsTheExactValue) {
+TEST(BallNumber, ContainsTheExactValue) {
   for_each_seed(1000, [](RandomGeometry& random, Terrain terrain) {
-    std::array<internal::Ball, 3> ball;
+    std::array<internal::BallNumber, 3> ball;
     RationalVector exact;
     for (int i = 0; i < 3; ++i) {
       const double p = random.coordinate(terrain), q = random.coordinate(terrain);
       ball[i] = internal::exact_difference(p, q);
       exact[i] = Rational(p) - Rational(q);
     }
-    const auto check = [](const internal::Ball& x, const Rational& value) {
+    const auto check = [](const internal::BallNumber& x, const Rational& value) {
       const Rational off = value - Rational(x.hi) - Rational(x.lo);
       return CGAL::abs(off) <= Rational(x.radius);
     };

@@ -25,7 +25,7 @@ int main() {
   }
   const sightline::Scene scene(std::move(soup));
   const sightline::OcclusionIndex index(scene);
-  const sightline::Skeleton skeleton = sightline::build_ev_skeleton(scene);
+  const sightline::Skeleton skeleton = sightline::build_skeleton(scene);
 
   const bool blocked = !index.is_free({-1, 0.35, 0.3}, {2, 0.35, 0.3});
   std::printf("%zu objects, %s, %zu arcs\n", scene.objects().size(),

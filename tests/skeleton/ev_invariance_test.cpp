@@ -11,6 +11,7 @@
 
 #include "linespace/scene.h"
 #include "skeleton/skeleton.h"
+#include "tests/support/ev_skeleton.h"
 #include "tests/support/generators.h"
 #include "tests/support/library_skeleton.h"
 
@@ -117,7 +118,7 @@ CanonicalSkeleton skeleton_of(const PolygonSoup& soup, const Motion& motion = {}
   const Scene scene(soup);
   SkeletonRequest request;
   request.threads = threads;
-  return testing::canonical(scene, build_ev_skeleton(scene, request),
+  return testing::canonical(scene, testing::build_ev_skeleton(scene, request),
                             [&](const Point& p) { return motion.undo(p); });
 }
 
@@ -213,7 +214,8 @@ TEST(EvInvariance, Threads) {
     SkeletonRequest one, four;
     one.threads = 1;
     four.threads = 4;
-    const Skeleton a = build_ev_skeleton(scene, one), b = build_ev_skeleton(scene, four);
+    const Skeleton a = testing::build_ev_skeleton(scene, one),
+                   b = testing::build_ev_skeleton(scene, four);
     ASSERT_EQ(a.arcs.size(), b.arcs.size());
     ASSERT_EQ(a.nodes.size(), b.nodes.size());
     for (std::size_t i = 0; i < a.arcs.size(); ++i) {

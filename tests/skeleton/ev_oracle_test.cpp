@@ -12,6 +12,7 @@
 #include "linespace/occlusion.h"
 #include "linespace/scene.h"
 #include "skeleton/skeleton.h"
+#include "tests/support/ev_skeleton.h"
 #include "tests/support/generators.h"
 #include "tests/support/library_skeleton.h"
 #include "tests/support/naive_boxes.h"
@@ -62,7 +63,8 @@ TEST(EvOracle, EveryNodeAndArcInGeneralPosition) {
     }
     ++scenes;
     const Scene scene(soup);
-    const CanonicalSkeleton ours = testing::canonical(scene, build_ev_skeleton(scene));
+    const CanonicalSkeleton ours =
+        testing::canonical(scene, testing::build_ev_skeleton(scene));
     EXPECT_EQ(ours.counts(), naive.counts());
     EXPECT_EQ(testing::difference(ours, "the skeleton", naive, "the oracle"), "");
     for (const auto& [kind, count] : naive.counts()) totals[kind] += count;
@@ -79,7 +81,8 @@ TEST(EvOracle, EveryNodeAndArcInGeneralPosition) {
 TEST(EvOracle, IdentityInLargerScenes) {
   for (const int count : {20, 40}) {
     const Scene scene(testing::random_polytopes(count, count, {.density = 0.2}));
-    const CanonicalSkeleton ours = testing::canonical(scene, build_ev_skeleton(scene));
+    const CanonicalSkeleton ours =
+        testing::canonical(scene, testing::build_ev_skeleton(scene));
     expect_identity(ours);
     EXPECT_EQ(ours.counts().count("Degenerate"), 0u);
   }
@@ -90,7 +93,8 @@ TEST(EvOracle, IdentityForRotatedBoxes) {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
     SCOPED_TRACE(::testing::Message() << "seed " << seed);
     const Scene scene(testing::rotated_boxes(seed, 6));
-    const CanonicalSkeleton ours = testing::canonical(scene, build_ev_skeleton(scene));
+    const CanonicalSkeleton ours =
+        testing::canonical(scene, testing::build_ev_skeleton(scene));
     expect_identity(ours);
     for (const auto& [kind, count] : ours.counts()) {
       EXPECT_TRUE(kind == "VV" || kind == "VEE" || kind == "EVE" || kind == "FvE" ||
@@ -121,7 +125,7 @@ int first_like(const Scene& scene, int edge) {
 
 Comparison compare_line_by_line(const PolygonSoup& soup, int samples_per_edge) {
   const Scene scene(soup);
-  const Skeleton skeleton = build_ev_skeleton(scene);
+  const Skeleton skeleton = testing::build_ev_skeleton(scene);
   const testing::BoxUnion boxes(soup);
   std::map<std::pair<int, int>, std::vector<std::array<double, 2>>> arcs;
   for (const SkeletonArc& arc : skeleton.arcs) {

@@ -1,5 +1,7 @@
 // The EV skeleton and its lines on small scenes whose answers are known by hand.
 
+#include "tests/support/ev_skeleton.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,7 +41,7 @@ int arcs_between(const Scene& scene, const char* a, const char* b) {
   SkeletonRequest request;
   request.vertex_objects = {scene.object_named(a)};
   request.edge_objects = {scene.object_named(b)};
-  return static_cast<int>(build_ev_skeleton(scene, request).arcs.size());
+  return static_cast<int>(testing::build_ev_skeleton(scene, request).arcs.size());
 }
 
 TEST(EvSkeleton, FindsAnOpeningOfAMillionthOfTheScene) {
@@ -59,11 +61,11 @@ TEST(EvSkeleton, ClosedSlitShowsNothing) {
 
 TEST(EvSkeleton, PartsAreThoseOfTheWhole) {
   const Scene scene(testing::random_polytopes(11, 6, {.density = 0.2}));
-  const Skeleton whole = build_ev_skeleton(scene);
+  const Skeleton whole = testing::build_ev_skeleton(scene);
   SkeletonRequest request;
   request.vertex_objects = {2};
   request.edge_objects = {0, 4};
-  const Skeleton part = build_ev_skeleton(scene, request);
+  const Skeleton part = testing::build_ev_skeleton(scene, request);
   const auto on = [&](int point, int object) {
     const auto faces = scene.faces_at(point);
     return std::any_of(faces.begin(), faces.end(),
@@ -89,7 +91,7 @@ TEST(EvSkeleton, StopsWhenAsked) {
   std::stop_source source;
   source.request_stop();
   request.stop = source.get_token();
-  const Skeleton none = build_ev_skeleton(scene, request);
+  const Skeleton none = testing::build_ev_skeleton(scene, request);
   EXPECT_FALSE(none.complete);
   EXPECT_EQ(none.vertices_done, 0U);
   EXPECT_EQ(none.vertices_asked, scene.corners().size());
@@ -99,7 +101,7 @@ TEST(EvSkeleton, StopsWhenAsked) {
 // the arc; beyond a piece's end the face named there is met.
 TEST(SkeletonLines, ContactsAndPiecesOfEveryArc) {
   const Scene scene(testing::random_polytopes(13, 5, {.density = 0.3}));
-  const Skeleton skeleton = build_ev_skeleton(scene);
+  const Skeleton skeleton = testing::build_ev_skeleton(scene);
   const SkeletonLines lines(scene);
   int pieces_in_all = 0, stopped = 0;
   for (const SkeletonArc& arc : skeleton.arcs) {
@@ -142,7 +144,7 @@ TEST(SkeletonLines, ContactsAndPiecesOfEveryArc) {
 
 TEST(SkeletonLines, NodesHaveTheContactsOfTheirKind) {
   const Scene scene(testing::random_polytopes(14, 5, {.density = 0.3}));
-  const Skeleton skeleton = build_ev_skeleton(scene);
+  const Skeleton skeleton = testing::build_ev_skeleton(scene);
   const SkeletonLines lines(scene);
   std::array<int, 4> seen{};
   for (const SkeletonNode& node : skeleton.nodes) {

@@ -21,6 +21,7 @@
 #include "skeleton/skeleton_index.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/eee_scenes.h"
+#include "tests/support/ev_skeleton.h"
 #include "tests/support/generators.h"
 #include "tests/support/library_skeleton.h"
 #include "tests/support/naive_eee.h"
@@ -115,7 +116,7 @@ TEST(PolygonMode, EvArcsThatGrazeAreThoseOfSolidModeWhereSolidsTouch) {
     SCOPED_TRACE(testing::name(kind));
     const Scene scene(testing::touching_boxes(kind));
     std::set<std::tuple<int, int, double, double>> solid, polygon;
-    for (const SkeletonArc& arc : build_ev_skeleton(scene).arcs) {
+    for (const SkeletonArc& arc : testing::build_ev_skeleton(scene).arcs) {
       solid.emplace(arc.vertex, arc.edge, arc.range[0], arc.range[1]);
     }
     for (const SkeletonArc& arc : polygon_skeleton(scene, true, false).arcs) {

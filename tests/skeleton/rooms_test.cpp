@@ -13,6 +13,7 @@
 #include "linespace/scene.h"
 #include "skeleton/skeleton.h"
 #include "skeleton/skeleton_index.h"
+#include "tests/support/ev_skeleton.h"
 #include "tests/support/generators.h"
 #include "tests/support/library_skeleton.h"
 
@@ -126,7 +127,7 @@ void expect_same_as_sheets(PolygonSoup soup, const std::vector<std::string>& roo
 TEST(Rooms, BoxesListedClockwiseAreSolids) {
   const std::string data = std::string(SIGHTLINE_TEST_DATA) + "/skeleton/";
   const Scene inward(read_mesh(data + "inward.obj"));
-  EXPECT_EQ(build_ev_skeleton(inward).arcs.size(), 112U);
+  EXPECT_EQ(testing::build_ev_skeleton(inward).arcs.size(), 112U);
   for (const EventMode mode : {EventMode::Solid, EventMode::Polygon}) {
     EXPECT_EQ(canonical(read_mesh(data + "inward.obj"), mode),
               canonical(read_mesh(data + "outward.obj"), mode));

@@ -16,7 +16,7 @@
 namespace sightline::internal {
 namespace {
 
-Ball ball(double x) { return {x, 0, 0}; }
+BallNumber ball(double x) { return {x, 0, 0}; }
 
 TEST(RoundedRoot, OfLinearPolynomialsIsTheExactOne) {
   testing::Random random(1);
@@ -42,7 +42,8 @@ TEST(RoundedRoot, OfQuadraticPolynomialsIsTheOneThatRisesOrFalls) {
     const double a = random.integer(1, 8) * (random.one_in(2) ? 1 : -1);
     if (u == v) continue;
     const auto at = [&](double s) { return a * (s - u) * (s - v); };
-    const Quadratic<Ball> h{ball(at(0)), ball(a * (2 * u * v - u - v)), ball(at(1))};
+    const Quadratic<BallNumber> h{ball(at(0)), ball(a * (2 * u * v - u - v)),
+                                  ball(at(1))};
     const auto rising = rounded_root(h, true);
     const auto falling = rounded_root(h, false);
     ASSERT_TRUE(rising && falling);
@@ -56,12 +57,12 @@ TEST(RoundedRoot, OfQuadraticPolynomialsIsTheOneThatRisesOrFalls) {
 }
 
 TEST(RoundedRoot, IsNotGivenWhereCoefficientsAreNotKnownWellEnough) {
-  EXPECT_FALSE(rounded_root(Ball{-1, 0, 0x1p-30}, ball(1)));
-  EXPECT_TRUE(rounded_root(Ball{-1, 0, 0x1p-50}, ball(1)));
+  EXPECT_FALSE(rounded_root(BallNumber{-1, 0, 0x1p-30}, ball(1)));
+  EXPECT_TRUE(rounded_root(BallNumber{-1, 0, 0x1p-50}, ball(1)));
   EXPECT_FALSE(rounded_root(ball(0), ball(0)));
   // (s - 1/2)^2: a double root, or none.
-  EXPECT_FALSE(rounded_root(Quadratic<Ball>{ball(1), ball(-2), ball(1)}, true));
-  EXPECT_FALSE(rounded_root(Quadratic<Ball>{ball(1), ball(0), ball(1)}, true));
+  EXPECT_FALSE(rounded_root(Quadratic<BallNumber>{ball(1), ball(-2), ball(1)}, true));
+  EXPECT_FALSE(rounded_root(Quadratic<BallNumber>{ball(1), ball(0), ball(1)}, true));
 }
 
 // Scenes so far from the origin that doubles do not tell positions well.

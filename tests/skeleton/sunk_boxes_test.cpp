@@ -11,6 +11,7 @@
 
 #include "linespace/scene.h"
 #include "skeleton/skeleton.h"
+#include "tests/support/ev_skeleton.h"
 #include "tests/support/generators.h"
 
 namespace sightline {
@@ -71,7 +72,7 @@ std::vector<Arc> ev_arcs_off_the_ground(const PolygonSoup& soup) {
   const Scene scene(soup);
   ArcWriter writer(scene);
   std::vector<Arc> arcs;
-  for (const SkeletonArc& a : build_ev_skeleton(scene).arcs) {
+  for (const SkeletonArc& a : testing::build_ev_skeleton(scene).arcs) {
     if (scene.point(a.vertex)[2] == 0 && writer.on_the_ground({a.edge})) continue;
     writer.add_point(scene.point(a.vertex));
     writer.add_edge(a.edge);
