@@ -9,7 +9,7 @@ set(SIGHTLINE_INSTALL_INCLUDE ${CMAKE_INSTALL_INCLUDEDIR}/sightline)
 
 # sightline_module(<module>
 #                  SOURCES file...       the .cpp files
-#                  HEADERS file...       the public headers; *_internal.h never
+#                  HEADERS file...       the public headers, those at the top of the module
 #                  [MODULES module...]   modules of ours below this one
 #                  [PUBLIC target...]    what the public headers include
 #                  [PRIVATE target...]   what only the .cpp files use

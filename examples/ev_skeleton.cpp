@@ -7,7 +7,7 @@
 
 #include "linespace/mesh_io.h"
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 
 int main(int argc, char** argv) {
   // A file becomes a scene once, validated; from then on it is immutable.

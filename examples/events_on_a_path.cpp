@@ -6,8 +6,8 @@
 
 #include "linespace/mesh_io.h"
 #include "linespace/scene.h"
+#include "skeleton/build.h"
 #include "skeleton/end_index.h"
-#include "skeleton/skeleton.h"
 #include "skeleton/view_events.h"
 
 int main(int argc, char** argv) {

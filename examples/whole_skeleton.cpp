@@ -7,7 +7,7 @@
 
 #include "linespace/mesh_io.h"
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 
 int main(int argc, char** argv) {
   const std::string file = argc > 1 ? argv[1] : "examples/scenes/cornell.obj";

@@ -3,7 +3,7 @@
 //
 // Embree proposes, exact contact tests dispose.  The definitions of contact, blocked,
 // grazing and free are those of docs/contacts.md.
-// Neighbours: contact_internal.h decides one contact; bvh_internal.h finds faces.
+// Neighbours: contacts/contact.h decides one contact; space/bvh.h finds faces.
 
 #pragma once
 

@@ -2,7 +2,7 @@
 //
 // Every function returns the sign that exact arithmetic would give for the doubles passed
 // in, at nearly the cost of plain double arithmetic: a bounded floating-point attempt,
-// then intervals, then exact numbers.  The stages are in predicates_internal.h, which
+// then intervals, then exact numbers.  The stages are in numbers/predicates.h, which
 // only tests and benchmarks include.  No symbolic perturbation: a degenerate input gives
 // Sign::Zero, and the caller says what that means.
 //

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <stdexcept>
@@ -39,6 +40,9 @@ struct Request {
   /// A stop that is requested ends the work soon, with a partial answer.
   std::stop_token stop;
 };
+
+/// What ended the work before it was done.
+enum class StoppedBy : std::uint8_t { Nothing, Seconds, Bytes, Request };
 
 /// The budget ended, or a stop was requested, before there was anything to answer: while
 /// a file was read, a scene or an index was made.  what() says in which stage.

@@ -123,7 +123,7 @@ class ExactLine {
   /// RoundedPoint says.
   [[nodiscard]] RoundedPoint direction() const;
 
-  struct Coordinates;  // exact; in transversals_internal.h
+  struct Coordinates;  // exact; in lines/transversals.h
   explicit ExactLine(std::shared_ptr<const Coordinates> coordinates);
   [[nodiscard]] const Coordinates& coordinates() const { return *coordinates_; }
 

@@ -18,7 +18,7 @@ namespace sightline {
 
 class VisibilityCover {
  public:
-  struct Data;  // visibility_cover_internal.h
+  struct Data;  // between/visibility_cover.h
   explicit VisibilityCover(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
   [[nodiscard]] const Data& data() const { return *data_; }
   /// Number of cells in the leaves.

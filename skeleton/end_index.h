@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "linespace/request.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
 #include "skeleton/skeleton_index.h"
 
 namespace sightline {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
 
 namespace sightline {
 

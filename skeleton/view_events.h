@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "skeleton/end_index.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
 
 namespace sightline {
 

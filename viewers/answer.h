@@ -10,7 +10,7 @@
 #include "linespace/exact_position.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
 
 namespace sightline::viewers {
 

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
 #include "viewers/camera.h"
 #include "viewers/far_ends.h"
 #include "viewers/picture.h"

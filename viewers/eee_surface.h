@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
 
 namespace sightline::viewers {
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
 #include "skeleton/skeleton_lines.h"
 
 namespace sightline::viewers {

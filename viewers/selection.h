@@ -6,7 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
+#include "skeleton/request.h"
 
 namespace sightline::viewers {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
 #include "skeleton/skeleton_lines.h"
 #include "viewers/answer.h"
 #include "viewers/output_file.h"

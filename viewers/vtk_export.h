@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
 #include "viewers/drawing.h"
 
 namespace sightline::viewers {

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "linespace/mesh_io_internal.h"
+#include "linespace/files/mesh_io.h"
 #include "tests/support/unhurried.h"
 #ifdef SIGHTLINE_FUZZ_VIEWERS
 #include "fuzz_viewers.h"

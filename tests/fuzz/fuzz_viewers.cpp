@@ -1,6 +1,6 @@
 #include "fuzz_viewers.h"
 
-#include "linespace/mesh_io_internal.h"
+#include "linespace/files/mesh_io.h"
 #include "tests/support/unhurried.h"
 #include "viewers/builtin_scene.h"
 #include "viewers/questions.h"

@@ -12,7 +12,8 @@ endfunction()
 file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix --config ${CONFIG})
 
-file(GLOB_RECURSE internal ${WORK_DIR}/prefix/*_internal.h)
+# Headers lie at the top of their modules, sub-folders are internal.
+file(GLOB internal ${WORK_DIR}/prefix/include/sightline/*/*/*)
 if(internal)
   message(FATAL_ERROR "internal headers were installed: ${internal}")
 endif()

@@ -1,6 +1,8 @@
 // The cases of docs/contacts.md, one test each, and the same code against a naive
 // rational classification and against perturbed lines.
 
+#include "linespace/contacts/contact.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -11,7 +13,6 @@
 #include <string>
 #include <vector>
 
-#include "linespace/contact_internal.h"
 #include "tests/support/generators.h"
 
 namespace sightline {

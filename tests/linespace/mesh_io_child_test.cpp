@@ -13,8 +13,8 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "linespace/files/child.h"
 #include "linespace/mesh_io.h"
-#include "linespace/mesh_io_child_internal.h"
 #include "tests/support/unhurried.h"
 
 namespace sightline {

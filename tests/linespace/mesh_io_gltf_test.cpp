@@ -15,8 +15,8 @@
 #include <sstream>
 
 #include "linespace/face_visibility.h"
+#include "linespace/files/mesh_io.h"
 #include "linespace/mesh_io.h"
-#include "linespace/mesh_io_internal.h"
 #include "tests/support/unhurried.h"
 
 namespace sightline {

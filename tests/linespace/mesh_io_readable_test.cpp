@@ -12,8 +12,8 @@
 #include <random>
 #include <sstream>
 
+#include "linespace/files/mesh_io.h"
 #include "linespace/mesh_io.h"
-#include "linespace/mesh_io_internal.h"
 #include "tests/support/unhurried.h"
 
 namespace sightline {

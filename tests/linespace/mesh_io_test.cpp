@@ -9,7 +9,7 @@
 #include <random>
 #include <sstream>
 
-#include "linespace/mesh_io_internal.h"
+#include "linespace/files/mesh_io.h"
 #include "tests/support/unhurried.h"
 
 namespace sightline {

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "linespace/contact_internal.h"
+#include "linespace/contacts/contact.h"
 #include "tests/support/generators.h"
 
 namespace sightline {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "linespace/cover_search_internal.h"
+#include "linespace/between/cover_search.h"
+#include "linespace/between/visibility_cover.h"
 #include "linespace/visibility_cover.h"
-#include "linespace/visibility_cover_internal.h"
 #include "tests/support/naive_polygon_visibility.h"
 #include "tests/support/visibility_cases.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "linespace/portal_nearby_internal.h"
+#include "linespace/portals/nearby.h"
 #include "tests/support/random_geometry.h"
 
 namespace sightline::internal {

@@ -13,8 +13,8 @@
 #include <array>
 #include <vector>
 
+#include "linespace/numbers/predicates.h"
 #include "linespace/predicates.h"
-#include "linespace/predicates_internal.h"
 #include "tests/support/random_geometry.h"
 
 namespace sightline {

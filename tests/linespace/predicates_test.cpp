@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "linespace/exact_numbers_internal.h"
-#include "linespace/predicates_internal.h"
+#include "linespace/numbers/exact_numbers.h"
+#include "linespace/numbers/predicates.h"
 #include "tests/support/random_geometry.h"
 
 namespace sightline {

@@ -11,9 +11,9 @@
 #include <random>
 #include <set>
 
-#include "linespace/bvh_internal.h"
 #include "linespace/mesh_io.h"
 #include "linespace/predicates.h"
+#include "linespace/space/bvh.h"
 
 namespace sightline {
 namespace {

@@ -1,6 +1,7 @@
+#include "linespace/between/segment_sampler.h"
+
 #include <gtest/gtest.h>
 
-#include "linespace/segment_sampler_internal.h"
 #include "tests/support/visibility_cases.h"
 
 namespace sightline::testing {

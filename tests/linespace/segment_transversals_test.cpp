@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "linespace/lines/segment_transversals.h"
 #include "linespace/scene.h"
-#include "linespace/segment_transversals_internal.h"
 #include "tests/support/random_geometry.h"
 
 namespace sightline {

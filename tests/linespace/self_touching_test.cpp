@@ -7,8 +7,8 @@
 #include <ctime>
 #include <random>
 
-#include "linespace/face_pair_internal.h"
 #include "linespace/scene.h"
+#include "linespace/scene/face_pair.h"
 
 namespace sightline {
 namespace {

@@ -1,6 +1,8 @@
 // SolidIndex against a naive oracle: winding numbers along random rays in rational
 // arithmetic.
 
+#include "linespace/scene/solid_index.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 #include <string>
 #include <vector>
 
-#include "linespace/solid_index_internal.h"
 #include "tests/support/exact.h"
 #include "tests/support/generators.h"
 

@@ -1,5 +1,7 @@
 // Reading a file and making a scene hear a budget and a stop, and say how far they are.
 
+#include "linespace/work/stage.h"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -16,7 +18,6 @@
 #include "linespace/mesh_io.h"
 #include "linespace/occlusion.h"
 #include "linespace/scene.h"
-#include "linespace/stage_internal.h"
 #include "tests/support/generators.h"
 
 namespace sightline {

@@ -14,8 +14,8 @@
 #include <array>
 #include <vector>
 
+#include "linespace/lines/transversals.h"
 #include "linespace/segment_transversals.h"
-#include "linespace/transversals_internal.h"
 #include "tests/support/random_geometry.h"
 
 namespace sightline {

@@ -13,8 +13,8 @@
 #include <set>
 #include <vector>
 
-#include "linespace/rational_internal.h"
-#include "linespace/transversals_internal.h"
+#include "linespace/lines/transversals.h"
+#include "linespace/numbers/rational.h"
 #include "tests/support/random_geometry.h"
 
 namespace sightline {

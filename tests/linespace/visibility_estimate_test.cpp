@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "linespace/line_sampling.h"
-#include "linespace/occlusion_internal.h"
 #include "linespace/predicates.h"
+#include "linespace/sight/occlusion.h"
 #include "tests/support/generators.h"
 
 namespace sightline {

@@ -4,11 +4,11 @@
 
 #include <random>
 
-#include "linespace/concurrent_lines_internal.h"
-#include "linespace/occluder_source_internal.h"
+#include "linespace/between/concurrent_lines.h"
+#include "linespace/between/occluder_source.h"
+#include "linespace/between/visibility_cover.h"
 #include "linespace/polygon_visibility.h"
 #include "linespace/visibility_cover.h"
-#include "linespace/visibility_cover_internal.h"
 #include "tests/support/visibility_cases.h"
 
 namespace sightline::testing {

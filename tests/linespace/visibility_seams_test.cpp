@@ -8,10 +8,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "linespace/bilinear_cell_internal.h"
+#include "linespace/between/bilinear_cell.h"
 #include "linespace/face_visibility.h"
 #include "linespace/mesh_io.h"
-#include "linespace/polynomials_internal.h"
+#include "linespace/numbers/polynomials.h"
 #include "linespace/visibility_cover.h"
 #include "tests/support/generators.h"
 #include "tests/support/seam_questions.h"

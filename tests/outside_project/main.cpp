@@ -4,7 +4,7 @@
 #include <linespace/occlusion.h>
 #include <linespace/predicates.h>
 #include <linespace/scene.h>
-#include <skeleton/skeleton.h>
+#include <skeleton/build.h>
 
 #include <cstdio>
 #include <utility>

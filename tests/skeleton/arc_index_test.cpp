@@ -1,5 +1,7 @@
 // The index of arcs by space leaves out no arc that a path crosses: against asking all.
 
+#include "skeleton/ask/arc_index.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "skeleton/arc_index_internal.h"
+#include "skeleton/build.h"
 #include "skeleton/view_events.h"
 #include "tests/support/eee_scenes.h"
 #include "tests/support/generators.h"

@@ -8,8 +8,8 @@
 #include <set>
 #include <vector>
 
-#include "skeleton/blocker_list_internal.h"
-#include "skeleton/facing_faces_internal.h"
+#include "linespace/blockers/blocker_list.h"
+#include "linespace/blockers/facing_faces.h"
 #include "tests/support/generators.h"
 
 namespace sightline::internal {
@@ -34,7 +34,7 @@ Point random_point(testing::Random& random, const Scene& scene) {
 TEST(RidgeSides, AreThoseOfThePlanes) {
   for (const PolygonSoup& soup : soups()) {
     const Scene scene(soup);
-    const Generators g(scene);
+    const Silhouettes g(scene);
     testing::Random random(1);
     int none = 0, seen = 0, in_plane = 0;
     for (int trial = 0; trial < 60; ++trial) {
@@ -69,7 +69,7 @@ TEST(RidgeSides, AreThoseOfThePlanes) {
 TEST(FacingFaces, HoldTheFaceThatIsEnteredBy) {
   for (const PolygonSoup& soup : soups()) {
     const Scene scene(soup);
-    const Generators g(scene);
+    const Silhouettes g(scene);
     FacingFaces facing(g);
     testing::Random random(5);
     int left_out = 0, entered = 0;
@@ -110,7 +110,7 @@ TEST(FacingFaces, HoldTheFaceThatIsEnteredBy) {
 // From on and beside a solid all its faces are told.
 TEST(FacingFaces, AreAllFromInsideTheBox) {
   const Scene scene(testing::boxes_soup({{{0, 0, 0}, {2, 2, 2}}}));
-  const Generators g(scene);
+  const Silhouettes g(scene);
   FacingFaces facing(g);
   for (const Point& p : {Point{1, 1, 2}, Point{2, 2, 2}, Point{1, 1, 1}}) {
     facing.begin(std::span(&p, 1));
@@ -135,7 +135,7 @@ TEST(BlockerList, TellsAllThatMayBeInTheWay) {
   scenes.push_back(testing::triangle_soup(4, 2000));
   for (const PolygonSoup& soup : scenes) {
     const Scene scene(soup);
-    const Generators g(scene);
+    const Silhouettes g(scene);
     BlockerList list(g);
     testing::Random random(9);
     std::size_t met = 0;
@@ -186,7 +186,7 @@ TEST(Blockers, HoldEveryFaceOnce) {
       testing::random_polytopes(2, 5, {.min_vertices = 30, .max_vertices = 40}));
   for (const PolygonSoup& soup : scenes) {
     const Scene scene(soup);
-    const Generators g(scene);
+    const Silhouettes g(scene);
     std::vector<int> faces;
     for (const std::int32_t blocker : g.blockers()) {
       if (blocker < 0) {

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "tests/support/generators.h"
 #include "tests/support/library_skeleton.h"
 

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "linespace/mesh_io.h"
+#include "skeleton/build.h"
 #include "skeleton/end_index.h"
-#include "skeleton/skeleton.h"
 #include "skeleton/view_events.h"
 #include "tests/support/generators.h"
 

@@ -1,15 +1,18 @@
 // Facets seen edge-on: through narrow gaps, past what lies in their plane, and against
 // lines to many points of their sides.
 
+#include "linespace/swaths/edge_on_view.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "skeleton/edge_cuts_internal.h"
-#include "skeleton/edge_on_view_internal.h"
-#include "skeleton/node_contacts_internal.h"
+#include "linespace/sight/line_probe.h"
+#include "linespace/swaths/edge_cuts.h"
+#include "skeleton/build.h"
+#include "skeleton/nodes/node_contacts.h"
 #include "skeleton/view_events.h"
 #include "tests/support/eee_scenes.h"
 #include "tests/support/generators.h"
@@ -69,7 +72,7 @@ TEST(EdgeOnView, GoesPastWhatLiesInThePlane) {
 }
 
 /// No contact at all on the way to some of many points of the facet's sides.
-bool any_sample_is_seen(const internal::Generators& g, int facet,
+bool any_sample_is_seen(const internal::Silhouettes& g, int facet,
                         const PlaneThrough& plane, const Point& a, const Point& b) {
   const Scene& scene = g.scene();
   const auto value = [&](const Point& p) {
@@ -114,7 +117,7 @@ TEST(EdgeOnView, AgreesWithLinesToManyPoints) {
     const Scene scene(aligned ? testing::random_boxes(seed, 14, {.grid = 6})
                               : testing::random_polytopes(
                                     seed, 9, {.max_vertices = 7, .density = 0.4}));
-    const internal::Generators g(scene);
+    const internal::Silhouettes g(scene);
     testing::Random random(seed);
     const auto point = [&] {
       Point p;

@@ -1,6 +1,8 @@
 // What an edge's view calls hidden is blocked, line by line and exactly; pieces of long
 // edges change no events; what the tree of directions leaves out is not in line.
 
+#include "linespace/blockers/edge_view.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,10 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "skeleton/edge_cuts_internal.h"
-#include "skeleton/edge_view_internal.h"
-#include "skeleton/node_contacts_internal.h"
-#include "skeleton/opposite_edges_internal.h"
+#include "linespace/sight/line_probe.h"
+#include "linespace/space/opposite_edges.h"
+#include "linespace/swaths/edge_cuts.h"
+#include "skeleton/build.h"
+#include "skeleton/nodes/node_contacts.h"
 #include "tests/support/generators.h"
 
 namespace sightline::internal {
@@ -24,7 +27,7 @@ std::array<Point, 2> ends_of(const Scene& scene, const Ridge& r) {
 
 // Some of the lines between inner points of a part of an edge and of another edge is
 // free.
-bool some_free(const Generators& g, const std::array<Point, 2>& first,
+bool some_free(const Silhouettes& g, const std::array<Point, 2>& first,
                const std::array<Point, 2>& last, double from = 0, double to = 1) {
   for (const int s : {1, 8, 15}) {
     const Rational at = Rational(from) + (Rational(to) - Rational(from)) * s / 16;
@@ -51,7 +54,7 @@ struct Hidden {
 Hidden check_hidden(const PolygonSoup& soup, std::size_t step,
                     std::size_t other_step = 1) {
   const Scene scene(soup);
-  const Generators g(scene);
+  const Silhouettes g(scene);
   EdgeView view(g);
   Hidden count;
   std::vector<EdgeView::Part> parts;
@@ -203,9 +206,9 @@ TEST(EdgePieces, ChangeNoEvents) {
   for (const PolygonSoup& soup :
        {testing::city(2, 240), turned(turned(testing::grid_city(3, 200), 2), 0)}) {
     const Scene scene(soup);
-    const Generators g(scene);
-    const auto cut_edges = [](const Generators& generators, std::size_t ridges) {
-      EdgeView view(generators);
+    const Silhouettes g(scene);
+    const auto cut_edges = [](const Silhouettes& silhouettes, std::size_t ridges) {
+      EdgeView view(silhouettes);
       int cut = 0;
       for (std::size_t i = 0; i < ridges; ++i) {
         view.begin(static_cast<int>(i));
@@ -237,7 +240,7 @@ TEST(EdgePieces, ChangeNoEvents) {
       both.groups.push_back(group);
     }
     const Scene larger(both);
-    const Generators uncut(larger);
+    const Silhouettes uncut(larger);
     EXPECT_EQ(cut_edges(uncut, g.ridges().size()), 0);
     SkeletonRequest request;
     request.ev = false;
@@ -262,7 +265,7 @@ TEST(EdgePieces, ChangeNoEvents) {
 TEST(EdgeView, WhatTouchesAnOccluderAllAlongIsNotHidden) {
   const Scene scene(testing::boxes_soup(
       {{{0, 0, 0}, {1, 1, 2}}, {{2, 0, 0}, {3, 1, 2}}, {{4, 0, 0}, {5, 1, 2}}}));
-  const Generators g(scene);
+  const Silhouettes g(scene);
   EdgeView view(g);
   std::vector<EdgeView::Part> parts;
   std::vector<std::int32_t> faces;

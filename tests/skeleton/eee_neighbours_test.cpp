@@ -10,7 +10,7 @@
 
 #include "linespace/occlusion.h"
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "tests/support/generators.h"
 
 namespace sightline {

@@ -11,8 +11,8 @@
 
 #include "linespace/mesh_io.h"
 #include "linespace/scene.h"
+#include "skeleton/build.h"
 #include "skeleton/end_index.h"
-#include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
 #include "skeleton/view_events.h"
 #include "tests/support/eee_scenes.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "linespace/scene.h"
+#include "skeleton/build.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/generators.h"
 

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
+#include "skeleton/request.h"
 #include "tests/support/ev_skeleton.h"
 #include "tests/support/generators.h"
 #include "tests/support/library_skeleton.h"

@@ -6,7 +6,8 @@
 
 #include <algorithm>
 
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
+#include "skeleton/request.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/add_box.h"
 #include "tests/support/generators.h"

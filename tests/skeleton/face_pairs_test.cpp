@@ -7,7 +7,7 @@
 #include <cstdio>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "skeleton/skeleton_index.h"
 #include "tests/support/eee_scenes.h"
 #include "tests/support/library_skeleton.h"

@@ -7,7 +7,7 @@
 
 #include "linespace/mesh_io.h"
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/eee_scenes.h"
 #include "tests/support/generators.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <tuple>
 
-#include "linespace/solid_index_internal.h"
-#include "skeleton/skeleton.h"
+#include "linespace/scene/solid_index.h"
+#include "skeleton/build.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/invariant_scenes.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "tests/support/add_box.h"
 #include "tests/support/generators.h"
 

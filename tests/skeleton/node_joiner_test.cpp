@@ -1,6 +1,8 @@
 // One node for each line: told apart by what determines lines, whatever way they are
 // told.
 
+#include "skeleton/nodes/node_joiner.h"
+
 #include <gtest/gtest.h>
 
 #include <map>
@@ -8,14 +10,13 @@
 #include <tuple>
 #include <vector>
 
-#include "skeleton/node_contacts_internal.h"
-#include "skeleton/node_joiner_internal.h"
+#include "skeleton/nodes/node_contacts.h"
 #include "tests/support/generators.h"
 
 namespace sightline::internal {
 namespace {
 
-using Generators = std::vector<Generator>;
+using Silhouettes = std::vector<Generator>;
 
 Generator vertex(int id) { return {GeneratorKind::Vertex, id}; }
 Generator edge(int id) { return {GeneratorKind::Edge, id}; }
@@ -32,18 +33,18 @@ SkeletonNode node(NodeKind kind, bool end = false, bool second = false) {
 TEST(NodeJoiner, ToldFromEitherEndALineIsOneNode) {
   Skeleton skeleton;
   NodeJoiner nodes(skeleton);
-  const auto vv = nodes.join(node(NodeKind::VV), Generators{vertex(7), vertex(3)}, true);
-  EXPECT_EQ(nodes.join(node(NodeKind::VV), Generators{vertex(3), vertex(7)}, true), vv);
+  const auto vv = nodes.join(node(NodeKind::VV), Silhouettes{vertex(7), vertex(3)}, true);
+  EXPECT_EQ(nodes.join(node(NodeKind::VV), Silhouettes{vertex(3), vertex(7)}, true), vv);
   EXPECT_EQ(skeleton.generators(skeleton.nodes[vv]).front(), vertex(3));
-  const Generators many{edge(1), edge(5), vertex(2), edge(9), edge(4)};
+  const Silhouettes many{edge(1), edge(5), vertex(2), edge(9), edge(4)};
   const auto degenerate = nodes.join(node(NodeKind::Degenerate), many, true);
-  EXPECT_EQ(nodes.join(node(NodeKind::Degenerate), Generators(many.rbegin(), many.rend()),
-                       true),
+  EXPECT_EQ(nodes.join(node(NodeKind::Degenerate),
+                       Silhouettes(many.rbegin(), many.rend()), true),
             degenerate);
   const auto fve =
-      nodes.join(node(NodeKind::FvE), Generators{vertex(1), facet(2), edge(3)}, true);
+      nodes.join(node(NodeKind::FvE), Silhouettes{vertex(1), facet(2), edge(3)}, true);
   EXPECT_EQ(
-      nodes.join(node(NodeKind::FvE), Generators{vertex(1), edge(3), facet(2)}, true),
+      nodes.join(node(NodeKind::FvE), Silhouettes{vertex(1), edge(3), facet(2)}, true),
       fve);
   EXPECT_EQ(skeleton.nodes.size(), 3U);
 }
@@ -52,11 +53,11 @@ TEST(NodeJoiner, ToldFromEitherEndALineIsOneNode) {
 TEST(NodeJoiner, LinesWithTheSameGeneratorsAreToldApartByTheirLines) {
   Skeleton skeleton;
   NodeJoiner nodes(skeleton);
-  const Generators contacts{edge(1), facet(2), facet(3)};
+  const Silhouettes contacts{edge(1), facet(2), facet(3)};
   const auto first = nodes.join(node(NodeKind::Degenerate), contacts, true, "17");
   EXPECT_NE(nodes.join(node(NodeKind::Degenerate), contacts, true, "18"), first);
   EXPECT_EQ(nodes.join(node(NodeKind::Degenerate),
-                       Generators(contacts.rbegin(), contacts.rend()), true, "17"),
+                       Silhouettes(contacts.rbegin(), contacts.rend()), true, "17"),
             first);
   EXPECT_EQ(skeleton.nodes.size(), 2U);
 }
@@ -66,9 +67,9 @@ TEST(NodeJoiner, NothingDependsOnHashes) {
   Skeleton skeleton;
   NodeJoiner nodes(skeleton, 0);
   testing::Random random(2);
-  std::map<std::tuple<Generators, std::string>, std::uint32_t> known;
+  std::map<std::tuple<Silhouettes, std::string>, std::uint32_t> known;
   for (int i = 0; i < 4000; ++i) {
-    const Generators contacts{edge(random.integer(0, 3)), facet(5), facet(9)};
+    const Silhouettes contacts{edge(random.integer(0, 3)), facet(5), facet(9)};
     const std::string line(static_cast<std::size_t>(random.integer(0, 40)), 'x');
     const auto number = nodes.join(node(NodeKind::Degenerate), contacts, true, line);
     const auto [at, is_new] =
@@ -111,18 +112,18 @@ TEST(LineName, IsOneForEachLine) {
 TEST(NodeJoiner, LinesOfOtherGeneratorsOrKindsAreOtherNodes) {
   Skeleton skeleton;
   NodeJoiner nodes(skeleton);
-  const Generators vee{vertex(1), edge(2), edge(3)};
+  const Silhouettes vee{vertex(1), edge(2), edge(3)};
   const auto first = nodes.join(node(NodeKind::VEE), vee, true);
   EXPECT_NE(
-      nodes.join(node(NodeKind::VEE), Generators{vertex(1), edge(3), edge(2)}, true),
+      nodes.join(node(NodeKind::VEE), Silhouettes{vertex(1), edge(3), edge(2)}, true),
       first);
   EXPECT_NE(nodes.join(node(NodeKind::EVE), vee, true), first);
-  EXPECT_NE(nodes.join(node(NodeKind::VEE), Generators{edge(1), edge(2), edge(3)}, true),
+  EXPECT_NE(nodes.join(node(NodeKind::VEE), Silhouettes{edge(1), edge(2), edge(3)}, true),
             first);
-  const Generators four{edge(1), edge(2), edge(3), edge(4)};
+  const Silhouettes four{edge(1), edge(2), edge(3), edge(4)};
   EXPECT_NE(nodes.join(node(NodeKind::EEEE, false, false), four, true),
             nodes.join(node(NodeKind::EEEE, false, true), four, true));
-  const Generators pair{vertex(1), vertex(2)};
+  const Silhouettes pair{vertex(1), vertex(2)};
   EXPECT_NE(nodes.join(node(NodeKind::VV, false), pair, true),
             nodes.join(node(NodeKind::VV, true), pair, true));
   EXPECT_EQ(nodes.join(node(NodeKind::VEE), vee, true), first);
@@ -132,9 +133,9 @@ TEST(NodeJoiner, LinesOfOtherGeneratorsOrKindsAreOtherNodes) {
 TEST(NodeJoiner, NumbersAreThoseOfAMap) {
   Skeleton skeleton;
   NodeJoiner nodes(skeleton);
-  std::map<std::tuple<int, bool, Generators>, std::uint32_t> known;
+  std::map<std::tuple<int, bool, Silhouettes>, std::uint32_t> known;
   testing::Random random(1);
-  std::vector<std::pair<SkeletonNode, Generators>> asked;
+  std::vector<std::pair<SkeletonNode, Silhouettes>> asked;
   for (int i = 0; i < 60000; ++i) {
     const bool third = random.one_in(3);
     const NodeKind kind = third ? NodeKind::VEE : NodeKind::FEE;
@@ -163,7 +164,7 @@ TEST(NodeJoiner, NumbersAreThoseOfAMap) {
 TEST(NodeJoiner, WhatWasForgottenIsNew) {
   Skeleton skeleton;
   NodeJoiner nodes(skeleton);
-  const Generators four{edge(1), edge(2), edge(3), edge(4)};
+  const Silhouettes four{edge(1), edge(2), edge(3), edge(4)};
   const auto first = nodes.join_eeee(node(NodeKind::EEEE), four, true);
   EXPECT_EQ(nodes.join_eeee(node(NodeKind::EEEE), four, true), first);
   nodes.forget_eeee();
@@ -173,7 +174,7 @@ TEST(NodeJoiner, WhatWasForgottenIsNew) {
 TEST(NodeJoiner, ALineThatMayBeFoundElsewhereIsNotForgotten) {
   Skeleton skeleton;
   NodeJoiner nodes(skeleton);
-  const Generators four{edge(1), edge(2), edge(3), edge(4)};
+  const Silhouettes four{edge(1), edge(2), edge(3), edge(4)};
   const auto first = nodes.join(node(NodeKind::EEEE), four, true);
   nodes.forget_eeee();
   EXPECT_EQ(nodes.join(node(NodeKind::EEEE), four, true), first);

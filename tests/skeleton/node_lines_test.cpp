@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "skeleton/build.h"
 #include "skeleton/end_index.h"
-#include "skeleton/skeleton.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/eee_scenes.h"
 #include "tests/support/exact.h"

@@ -10,7 +10,7 @@
 #include <tuple>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "tests/support/exact.h"
 #include "tests/support/generators.h"
 

@@ -12,7 +12,7 @@
 
 #include "linespace/perturb.h"
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/generators.h"
 

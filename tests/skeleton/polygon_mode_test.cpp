@@ -17,7 +17,7 @@
 
 #include "linespace/occlusion.h"
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "skeleton/skeleton_index.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/eee_scenes.h"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "tests/support/eee_scenes.h"
 #include "tests/support/library_skeleton.h"
 #include "tests/support/naive_eee.h"

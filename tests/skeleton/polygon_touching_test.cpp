@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "tests/support/generators.h"
 #include "tests/support/library_skeleton.h"
 #include "tests/support/naive_grid.h"

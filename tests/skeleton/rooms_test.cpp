@@ -11,7 +11,7 @@
 #include "linespace/face_visibility.h"
 #include "linespace/mesh_io.h"
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "skeleton/skeleton_index.h"
 #include "tests/support/ev_skeleton.h"
 #include "tests/support/generators.h"

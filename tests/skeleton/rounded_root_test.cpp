@@ -1,16 +1,17 @@
 // Positions rounded from double-double coefficients are those that exact ones give.
 
+#include "linespace/lines/rounded_root.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "linespace/predicates_internal.h"
-#include "linespace/surd_internal.h"
-#include "skeleton/edge_cuts_internal.h"
-#include "skeleton/eee_curve_internal.h"
-#include "skeleton/rounded_root_internal.h"
+#include "linespace/numbers/predicates.h"
+#include "linespace/numbers/surd.h"
+#include "linespace/swaths/edge_cuts.h"
+#include "linespace/swaths/eee_curve.h"
 #include "tests/support/generators.h"
 
 namespace sightline::internal {

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "linespace/scene.h"
+#include "skeleton/build.h"
 #include "tests/support/generators.h"
 
 namespace sightline {

@@ -29,7 +29,7 @@
 #include <vector>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "tests/support/generators.h"
 
 namespace {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "tests/support/ev_skeleton.h"
 #include "tests/support/generators.h"
 

@@ -11,11 +11,13 @@
 #include <string>
 #include <tuple>
 
-#include "linespace/contact_internal.h"
+#include "linespace/contacts/contact.h"
 #include "linespace/occlusion.h"
 #include "linespace/scene.h"
-#include "skeleton/edge_cuts_internal.h"
-#include "skeleton/node_contacts_internal.h"
+#include "linespace/sight/line_probe.h"
+#include "linespace/swaths/edge_cuts.h"
+#include "skeleton/build.h"
+#include "skeleton/nodes/node_contacts.h"
 #include "tests/support/eee_scenes.h"
 #include "tests/support/generators.h"
 
@@ -46,7 +48,7 @@ struct View {
 class Viewer {
  public:
   explicit Viewer(const Scene& scene)
-      : scene_(scene), index_(scene), generators_(scene) {}
+      : scene_(scene), index_(scene), silhouettes_(scene) {}
 
   [[nodiscard]] const OcclusionIndex& index() const { return index_; }
 
@@ -75,8 +77,8 @@ class Viewer {
 
  private:
   [[nodiscard]] bool grazes(const Point& x, const Point& p) const {
-    const auto faces = internal::faces_near_line(generators_, x, p);
-    return internal::is_free(generators_, LineScan(scene_, faces, x, p));
+    const auto faces = internal::faces_near_line(silhouettes_, x, p);
+    return internal::is_free(silhouettes_, LineScan(scene_, faces, x, p));
   }
 
   // One point of `near` and one of `far` lie in line, both grazed, in this order, and
@@ -108,13 +110,13 @@ class Viewer {
     while (q[axis] == e[axis]) ++axis;
     const Rational t = (p[axis] - e[axis]) / (q[axis] - e[axis]);
     if (t <= 0 || t >= 1) return false;
-    const auto faces = internal::faces_near_line(generators_, x, internal::rounded(q));
-    return internal::is_free(generators_, LineScan(scene_, faces, e, q));
+    const auto faces = internal::faces_near_line(silhouettes_, x, internal::rounded(q));
+    return internal::is_free(silhouettes_, LineScan(scene_, faces, e, q));
   }
 
   const Scene& scene_;
   OcclusionIndex index_;
-  internal::Generators generators_;
+  internal::Silhouettes silhouettes_;
 };
 
 struct Answers {

@@ -15,6 +15,7 @@
 
 #include "linespace/face_visibility.h"
 #include "linespace/occlusion.h"
+#include "skeleton/build.h"
 #include "skeleton/view_events.h"
 #include "tests/support/generators.h"
 #include "tests/support/invariant_scenes.h"

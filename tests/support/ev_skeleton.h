@@ -2,7 +2,7 @@
 
 #pragma once
 
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 
 namespace sightline::testing {
 

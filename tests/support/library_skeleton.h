@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "linespace/scene.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/graph.h"
 #include "tests/support/canonical_skeleton.h"
 
 namespace sightline::testing {

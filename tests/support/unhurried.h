@@ -2,7 +2,7 @@
 
 #pragma once
 
-#include "linespace/stage_internal.h"
+#include "linespace/work/stage.h"
 
 namespace sightline::test {
 

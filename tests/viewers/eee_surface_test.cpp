@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "linespace/mesh_io.h"
+#include "skeleton/build.h"
 
 namespace sightline::viewers {
 namespace {

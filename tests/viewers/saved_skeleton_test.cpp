@@ -6,7 +6,7 @@
 #include <regex>
 
 #include "linespace/mesh_io.h"
-#include "skeleton/skeleton.h"
+#include "skeleton/build.h"
 #include "tests/support/shell.h"
 #include "viewers/checksum.h"
 #include "viewers/skeleton_file.h"

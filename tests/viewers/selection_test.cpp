@@ -9,6 +9,7 @@
 #include <set>
 
 #include "linespace/mesh_io.h"
+#include "skeleton/build.h"
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/generators.h"
 #include "viewers/drawing.h"

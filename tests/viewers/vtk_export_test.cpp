@@ -16,6 +16,7 @@
 #include <fstream>
 
 #include "linespace/mesh_io.h"
+#include "skeleton/build.h"
 #include "viewers/answer.h"
 #include "viewers/drawing.h"
 #include "viewers/eee_surface.h"

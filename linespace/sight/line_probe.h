@@ -1,0 +1,46 @@
+// Whether a line may touch more than what it was found by: a quick look in doubles along
+// the whole maximal free segment, so that only few lines have their contacts listed.
+
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "linespace/generator.h"
+#include "linespace/sight/line_probe.h"
+#include "linespace/silhouettes/silhouettes.h"
+
+namespace sightline::internal {
+
+/// Keeps scratch, so one per thread.
+class LineProbe {
+ public:
+  explicit LineProbe(const Silhouettes& silhouettes) : g_(silhouettes) {}
+
+  /// False: certain that the line through a and b, each off by at most `error`, touches
+  /// nothing along its maximal free segment around both but the objects of `known`, its
+  /// silhouettes, that are convex, and of others the facets at these.  Requires that the
+  /// segment from a to b is free.  Cost: some microseconds.
+  [[nodiscard]] bool may_touch_more(const Point& a, const Point& b, double error,
+                                    std::span<const Generator> known);
+
+ private:
+  void name(std::span<const Generator> known);
+  [[nodiscard]] bool named(int face) const;
+
+  const Silhouettes& g_;
+  std::vector<std::int32_t> objects_, facets_;  // of the silhouettes
+};
+
+/// Face ids, ascending, of all faces that meet the line through a and b along its maximal
+/// free segment around both, and some more; a and b may be rounded.  Beyond the walls
+/// that end the segment, faces are left out: in a city most of those on the line.
+[[nodiscard]] std::vector<int> faces_near_free_segment(const Silhouettes& silhouettes,
+                                                       const Point& a, const Point& b);
+
+/// Face ids, ascending, of all faces that meet the whole line through a and b, and some
+/// that do not; b may be rounded.
+[[nodiscard]] std::vector<int> faces_near_line(const Silhouettes& silhouettes,
+                                               const Point& a, const Point& b);
+
+}  // namespace sightline::internal

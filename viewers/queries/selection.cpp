@@ -1,0 +1,169 @@
+#include "viewers/selection.h"
+
+#include <algorithm>
+#include <functional>
+#include <set>
+
+#include "skeleton/build.h"
+
+namespace sightline::viewers {
+namespace {
+
+/// The points and edges of a group's faces.
+class Members {
+ public:
+  Members(const Scene& scene, const std::string& group) {
+    std::set<int> objects;
+    facets_.resize(scene.facets().size());
+    points_.resize(scene.points().size());
+    edges_.resize(scene.edges().size());
+    for (const int f : scene.faces_named(group)) {
+      facets_[scene.faces()[f].facet] = 1;
+      objects.insert(scene.faces()[f].object);
+      for (const int p : scene.face_points(f)) points_[p] = 1;
+    }
+    objects_.assign(objects.begin(), objects.end());
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      // A merged edge names one face of each facet along it.
+      edges_[e] =
+          std::ranges::any_of(scene.edges()[e].sides, [&](const Edge::Side& side) {
+            return facets_[scene.faces()[side.face].facet] != 0;
+          });
+    }
+  }
+
+  [[nodiscard]] const std::vector<int>& objects() const { return objects_; }
+  [[nodiscard]] bool vertex(int p) const { return points_[p] != 0; }
+  [[nodiscard]] bool facet(int f) const { return facets_[f] != 0; }
+  [[nodiscard]] bool edge(int e) const { return e >= 0 && edges_[e] != 0; }
+
+ private:
+  std::vector<char> points_, edges_, facets_;
+  std::vector<int> objects_;
+};
+
+/// What belongs to a part of the skeleton.
+struct Part {
+  std::function<bool(int vertex, int edge)> ev;
+  std::function<bool(const EeeArc&)> eee;
+  std::function<bool(int facet, int other)> ff;
+
+  /// A line of two facets that both belong to it.
+  [[nodiscard]] bool joins_facets(std::span<const Generator> generators) const {
+    for (std::size_t i = 0; i < generators.size(); ++i) {
+      for (std::size_t j = i + 1; j < generators.size(); ++j) {
+        if (generators[i].kind == GeneratorKind::Face &&
+            generators[j].kind == GeneratorKind::Face &&
+            ff(generators[i].id, generators[j].id)) {
+          return true;
+        }
+      }
+    }
+    return false;
+  }
+
+  /// Two EV arcs of the part line up through a corner there.
+  [[nodiscard]] bool lines_up(std::span<const Generator> generators) const {
+    for (std::size_t j = 1; j + 1 < generators.size(); ++j) {
+      if (generators[j].kind != GeneratorKind::Vertex) continue;
+      const auto arc_on = [&](const Generator& g) {
+        return g.kind == GeneratorKind::Edge && ev(generators[j].id, g.id);
+      };
+      if (std::ranges::any_of(generators.first(j), arc_on) &&
+          std::ranges::any_of(generators.subspan(j + 1), arc_on)) {
+        return true;
+      }
+    }
+    return false;
+  }
+};
+
+void copy_node(const Skeleton& from, const SkeletonNode& node, Skeleton& to) {
+  const std::span<const Generator> generators = from.generators(node);
+  to.nodes.push_back(node);
+  to.nodes.back().first_generator = static_cast<std::uint32_t>(to.generator_pool.size());
+  to.generator_pool.insert(to.generator_pool.end(), generators.begin(), generators.end());
+}
+
+/// The part's arcs, the nodes at their ends and where its EV arcs line up; renumbered.
+Skeleton filtered(const Skeleton& whole, const Part& part,
+                  const SkeletonRequest& request) {
+  Skeleton out;
+  out.events = whole.events;
+  out.complete = whole.complete;
+  out.stopped_by = whole.stopped_by;
+  out.vertices_done = whole.vertices_done;
+  out.vertices_asked = whole.vertices_asked;
+  out.edges_done = whole.edges_done;
+  out.edges_asked = whole.edges_asked;
+  out.facets_done = whole.facets_done;
+  out.facets_asked = whole.facets_asked;
+  out.predicates = whole.predicates;
+  out.simplified = whole.simplified;
+  std::erase_if(out.simplified.arcs, [&](const Simplified::Arc& arc) {
+    return !part.ev(arc.vertex, arc.edge);
+  });
+  for (const SkeletonArc& arc : whole.arcs) {
+    if (part.ev(arc.vertex, arc.edge)) out.arcs.push_back(arc);
+  }
+  for (const EeeArc& arc : whole.eee_arcs) {
+    if (part.eee(arc)) out.eee_arcs.push_back(arc);
+  }
+  std::vector<char> kept(whole.nodes.size());
+  for (const SkeletonArc& arc : out.arcs) kept[arc.nodes[0]] = kept[arc.nodes[1]] = 1;
+  for (const EeeArc& arc : out.eee_arcs) kept[arc.nodes[0]] = kept[arc.nodes[1]] = 1;
+  std::vector<std::uint32_t> renamed(whole.nodes.size());
+  for (std::size_t n = 0; n < whole.nodes.size(); ++n) {
+    const SkeletonNode& node = whole.nodes[n];
+    const auto generators = whole.generators(node);
+    if (!kept[n] && !(request.ev && part.lines_up(generators)) &&
+        !(request.ff && part.joins_facets(generators))) {
+      continue;
+    }
+    renamed[n] = static_cast<std::uint32_t>(out.nodes.size());
+    copy_node(whole, node, out);
+  }
+  for (SkeletonArc& arc : out.arcs) {
+    for (std::uint32_t& n : arc.nodes) n = renamed[n];
+  }
+  for (EeeArc& arc : out.eee_arcs) {
+    for (std::uint32_t& n : arc.nodes) n = renamed[n];
+  }
+  return out;
+}
+
+Skeleton build_between(const Scene& scene, SkeletonRequest request,
+                       const std::array<std::string, 2>& groups) {
+  const Members a(scene, groups[0]), b(scene, groups[1]);
+  request.outer_objects = {a.objects(), b.objects()};
+  const Part part{[&](int vertex, int edge) {
+                    return (a.vertex(vertex) && b.edge(edge)) ||
+                           (b.vertex(vertex) && a.edge(edge));
+                  },
+                  [&](const EeeArc& arc) {
+                    return (a.edge(arc.edges[0]) && b.edge(arc.edges[2])) ||
+                           (b.edge(arc.edges[0]) && a.edge(arc.edges[2]));
+                  },
+                  [&](int f, int g) {
+                    return (a.facet(f) && b.facet(g)) || (b.facet(f) && a.facet(g));
+                  }};
+  return filtered(build_skeleton(scene, request), part, request);
+}
+
+Skeleton build_through(const Scene& scene, SkeletonRequest request,
+                       const std::string& group) {
+  request.through_faces = scene.faces_named(group);
+  request.through_far_ends = true;
+  return build_skeleton(scene, request);
+}
+
+}  // namespace
+
+Skeleton build_selected(const Scene& scene, const SkeletonRequest& request,
+                        const Selection& selection) {
+  if (selection.between) return build_between(scene, request, *selection.between);
+  if (selection.through) return build_through(scene, request, *selection.through);
+  return build_skeleton(scene, request);
+}
+
+}  // namespace sightline::viewers
