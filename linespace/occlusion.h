@@ -85,7 +85,10 @@ class OcclusionIndex {
                                                      const Point& b) const;
 
   /// Extends the open segment ab both ways until a contact blocks; nullopt when ab itself
-  /// is not free.
+  /// is not free.  Its ends are the doubles nearest to the exact positions.
+  /// Cost: about two closest hits, half a microsecond, where doubles are certain that the
+  /// line touches nothing but the faces at its ends; exact numbers else, some
+  /// microseconds.
   [[nodiscard]] std::optional<FreeSegment> maximal_free_segment(const Point& a,
                                                                 const Point& b) const;
 

@@ -273,4 +273,31 @@ inline constexpr double kRadiusSlack = 1 + 16 * kUnit;
   return std::nullopt;
 }
 
+/// The double nearest to x / y; nullopt where the bounds leave a choice, or y may be 0.
+/// Requires a quotient that is neither denormal nor infinite.
+[[nodiscard]] inline std::optional<double> nearest_quotient(const BallNumber& x,
+                                                            const BallNumber& y) {
+  if (!sign_of(y)) return std::nullopt;
+  // x / y = q + r / y, where r is the remainder of a first quotient q.
+  const double q = x.hi / y.hi;
+  const BallNumber r = x - BallNumber{q, 0, 0} * y;
+  const double c = r.hi / y.hi;
+  const double out = q + c;
+  // What r / y is off by: its own radius and low part, and of r.hi / y.hi the share by
+  // which y.hi is not y (less than 2^-50), doubled for roundings.
+  const double least_y = std::abs(y.hi) * (1 - 4 * kUnit) - y.radius;
+  if (!(least_y > 0)) return std::nullopt;
+  const double error = 2 * ((r.radius + std::abs(r.lo)) / least_y +
+                            std::abs(c) * (8 * kUnit + 2 * y.radius / least_y));
+  // The rest of the sum q + c must stay nearer to `out` than half way to a neighbour,
+  // which lies a unit in the last place away; below a power of two, half of that.
+  const auto bits = std::bit_cast<std::uint64_t>(out);
+  const double power = std::bit_cast<double>(bits & 0x7FF0'0000'0000'0000U);
+  const bool is_power = (bits & 0x000F'FFFF'FFFF'FFFFU) == 0;
+  const double half_way = power * kUnit * (is_power ? 0.5 : 1);
+  const double rest = two_sum(q, c).t;
+  if (!(std::abs(rest) + error < half_way)) return std::nullopt;
+  return out;
+}
+
 }  // namespace sightline::internal

@@ -29,6 +29,7 @@
 #include <new>
 
 #include "linespace/contacts/contact.h"
+#include "linespace/numbers/exact_numbers.h"
 #include "linespace/sight/occlusion.h"
 #include "linespace/space/bvh.h"
 #include "linespace/work/stage.h"
@@ -255,6 +256,102 @@ inline Passage segment_passage(const Line& line, const Item& item) {
   return first == Passage::Doubtful ? of_segment(certify(line, item)) : first;
 }
 
+// What is known of the faces that a line a + t (b - a) meets on one side of a, t > 0 or
+// t < 0, by their distance |t|: the nearest that it certainly crosses, and how near
+// anything else may be.
+struct Nearest {
+  const Item* item = nullptr;                  // none: no face is certainly crossed
+  const Item* same = nullptr;                  // crossed with it, in its plane
+  double least = kInfinity, most = kInfinity;  // bounds of their distance
+  int past_b = 0;                              // sign of t - 1
+  double other = kInfinity;                    // nothing else is nearer than that
+
+  // No other item meets the line up to where it crosses the nearest; where it crosses
+  // none, no other at all.
+  [[nodiscard]] bool alone() const {
+    return item == nullptr ? other == kInfinity : other > most;
+  }
+  // The faces crossed there, ascending.
+  [[nodiscard]] std::vector<int> faces() const {
+    if (item == nullptr) return {};
+    if (same == nullptr) return {item->face};
+    return {std::min(item->face, same->face), std::max(item->face, same->face)};
+  }
+  void add(const Line& line, const Item& item_, int beyond);
+};
+
+// Both lie in one plane across an axis, as a building's floor and the ground do.
+bool share_axis_plane(const Item& p, const Item& q) {
+  return std::ranges::any_of(std::array{0, 1, 2}, [&](int axis) {
+    const auto in_plane = [&](double x) { return x == p.p[axis][0]; };
+    return std::ranges::all_of(p.p[axis], in_plane) &&
+           std::ranges::all_of(q.p[axis], in_plane);
+  });
+}
+
+// Distances are rounded up or down by this share of themselves: quotients of bounds, a
+// product or two.
+constexpr double kSlack = 16 * kUlp;
+
+// Of all points of the item, as the line's leading coordinate tells.
+double least_distance(const Line& line, const Item& item, int beyond) {
+  double least = kInfinity;
+  for (int c = 0; c < item.count; ++c) {
+    least = std::min(least, beyond * (item.p[line.axis[2]][c] - line.a[2]) / line.d[2]);
+  }
+  return std::max(0.0, least - kSlack * std::abs(least));
+}
+
+void Nearest::add(const Line& line, const Item& item_, int beyond) {
+  const Crossing c = certify(line, item_);
+  if (c.line == Passage::Misses) return;
+  if (c.line == Passage::Doubtful || c.past_a == 0) {
+    other = std::min(other, least_distance(line, item_, beyond));
+    return;
+  }
+  if (c.past_a != beyond) return;
+  // |t| is |n| / |s| / |d_k|.
+  const double d = std::abs(line.d[2]);
+  const double n = std::abs(c.n), w = std::abs(c.s);
+  const double low = (n - c.n_error) / (w + c.s_error) / d * (1 - kSlack);
+  const double high = (n + c.n_error) / (w - c.s_error) / d * (1 + kSlack);
+  if (item != nullptr && low <= most && least <= high && same == nullptr &&
+      item->face != item_.face && share_axis_plane(*item, item_)) {
+    same = &item_;
+  } else if (high < most) {
+    other = std::min(other, least);
+    same = nullptr;
+    least = low;
+    most = high;
+    past_b = c.past_b;
+    item = &item_;
+  } else {
+    other = std::min(other, low);
+  }
+}
+
+// The position t at which the line crosses the item's plane, rounded to the nearest
+// double; nullopt where double-double arithmetic does not tell which that is.
+//
+// With the plane's normal N, t = N (p - a) / N (b - a).
+std::optional<double> crossing_position(const Line& line, const Item& item) {
+  using internal::BallNumber;
+  using internal::exact_difference;
+  std::array<BallNumber, 3> u, v, w, d;
+  for (int i = 0; i < 3; ++i) {
+    const double* p = item.p[line.axis[i]];
+    u[i] = exact_difference(p[1], p[0]);
+    v[i] = exact_difference(p[2], p[0]);
+    w[i] = exact_difference(p[0], line.a[i]);
+    d[i] = exact_difference(line.b[i], line.a[i]);
+  }
+  const BallNumber n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                           u[0] * v[1] - u[1] * v[0]};
+  const BallNumber num = n[0] * w[0] + n[1] * w[1] + n[2] * w[2];
+  const BallNumber den = n[0] * d[0] + n[1] * d[1] + n[2] * d[2];
+  return internal::nearest_quotient(num, den);
+}
+
 // A part of a line in Embree's coordinates: ray parameter 0 is t0, 1 is t1.
 struct FloatRay {
   enum { Outside, Inside, TooFar } where;
@@ -306,14 +403,20 @@ struct OcclusionIndex::Impl {
       }
     }
 
-    // nearest(): +1 past b, -1 before a; the ray's range; the answer.
+    // nearest(): which way, the ray's range, the answer.
     int beyond = 0;
-    double t0 = 0, t1 = 1, t = 0;
+    double t0 = 0, t1 = 1;
+    Nearest* nearest = nullptr;
   };
 
   [[nodiscard]] FloatRay float_ray(const Point& a, const Point& b, double t0,
                                    double t1) const;
-  [[nodiscard]] double nearest(const Point& a, const Point& b, int beyond) const;
+  [[nodiscard]] std::optional<Nearest> nearest(const Line& line, const Point& a,
+                                               const Point& b, int beyond) const;
+  [[nodiscard]] std::optional<FreeSegment> maximal_by_all_contacts(const Point& a,
+                                                                   const Point& b,
+                                                                   double lowest,
+                                                                   double highest) const;
   [[nodiscard]] std::vector<int> faces_near(const Point& a, const Point& b, double t0,
                                             double t1) const;
   [[nodiscard]] std::optional<bool> is_free_for_certain(const Point& a, const Point& b,
@@ -417,19 +520,9 @@ void OcclusionIndex::Impl::build(internal::Stage& stage) {
   rtcSetGeometryIntersectFunction(
       geometry, [](const RTCIntersectFunctionNArguments* args) {
         auto& query = *reinterpret_cast<Query*>(args->context);
-        const Line& line = *query.lines;
-        const Crossing c = certify(line, query.items[args->primID]);
-        if (c.line != Passage::Crosses) return;
-        if (query.beyond > 0 ? c.past_b <= 0 : c.past_a >= 0) return;
-        // |t| <= (|n| + dn) / (|s| - ds) / |d_k|, with room for the roundings of this
-        // line and of d_k.
-        const double t = (std::abs(c.n) + c.n_error) / (std::abs(c.s) - c.s_error) /
-                         std::abs(line.d[2]) * (1 + 16 * kUlp);
-        if (t >= query.t) return;
-        query.t = t;
-        // Along the ray, which for `beyond` < 0 runs from b through a: later is harmless.
-        const double along = query.beyond > 0 ? t : 1 + t;
-        const double ray = (along - query.t0) / (query.t1 - query.t0);
+        query.nearest->add(*query.lines, query.items[args->primID], query.beyond);
+        // Along the ray, whose position 0 is a: later is harmless.
+        const double ray = (query.nearest->most - query.t0) / (query.t1 - query.t0);
         float& tfar = RTCRayN_tfar(reinterpret_cast<RTCRayN*>(args->rayhit), 1, 0);
         tfar = std::min(tfar, static_cast<float>(ray * (1 + 1e-6) + 1e-6));
       });
@@ -596,28 +689,28 @@ std::vector<int> OcclusionIndex::Impl::faces_near(const Point& a, const Point& b
   return out;
 }
 
-// A bound on the first position past b (beyond > 0) or the last before a at which a face
-// certainly blocks: there is a blocker between it and the segment.  Infinite when none is
-// known.
-double OcclusionIndex::Impl::nearest(const Point& a, const Point& b, int beyond) const {
-  const Line line(a, b, scene.bounds());
-  FloatRay r = beyond > 0 ? float_ray(a, b, 1, kInfinity) : float_ray(b, a, 1, kInfinity);
+// The nearest faces that the line meets from a on, through b (beyond 1) or away from it
+// (-1); nullopt where the ray is too far from the scene for floats.
+std::optional<Nearest> OcclusionIndex::Impl::nearest(const Line& line, const Point& a,
+                                                     const Point& b, int beyond) const {
+  FloatRay r = float_ray(a, beyond > 0 ? b : Point(a - (b - a)), 0, kInfinity);
+  Nearest found;
+  if (r.where == FloatRay::TooFar) return std::nullopt;
+  if (r.where == FloatRay::Outside) return found;
   Query query;
-  query.t = kInfinity;
-  if (r.where == FloatRay::Inside) {
-    rtcInitIntersectContext(&query.context);
-    query.lines = &line;
-    query.items = items.data();
-    query.beyond = beyond;
-    query.t0 = r.t0;
-    query.t1 = r.t1;
-    RTCRayHit hit;
-    hit.ray = r.ray;
-    hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(boxes, &query.context, &hit);
-  }
-  return beyond > 0 ? query.t : -query.t;
+  rtcInitIntersectContext(&query.context);
+  query.lines = &line;
+  query.items = items.data();
+  query.beyond = beyond;
+  query.t0 = r.t0;
+  query.t1 = r.t1;
+  query.nearest = &found;
+  RTCRayHit hit;
+  hit.ray = r.ray;
+  hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(boxes, &query.context, &hit);
+  return found;
 }
 
 OcclusionIndex::OcclusionIndex(const Scene& scene, const Request& request) {
@@ -789,9 +882,44 @@ void reconcile(const LineScan& scan, int c, End& back, End& forth) {
 std::optional<FreeSegment> OcclusionIndex::maximal_free_segment(const Point& a,
                                                                 const Point& b) const {
   assert(a != b);
+  const Line line(a, b, impl_->scene.bounds());
+  const auto forth = impl_->nearest(line, a, b, 1);
+  if (forth && forth->past_b < 0) return std::nullopt;
+  const auto back = impl_->nearest(line, a, b, -1);
+  // Alone on both sides: nothing else is touched on the way.
+  const bool certain = forth && back && forth->alone() && back->alone() &&
+                       (forth->item == nullptr || forth->past_b > 0);
+  if (certain) {
+    FreeSegment out{-kInfinity, kInfinity, {}, {}, {}};
+    const auto low = back->item ? crossing_position(line, *back->item) : -kInfinity;
+    const auto high = forth->item ? crossing_position(line, *forth->item) : kInfinity;
+    if (low && high) {
+      out.from = *low;
+      out.to = *high;
+      out.from_faces = back->faces();
+      out.to_faces = forth->faces();
+      ++thread_stage_counts().by_double;
+      return out;
+    }
+  }
   if (!is_free(a, b)) return std::nullopt;
-  const double lowest = impl_->nearest(a, b, -1), highest = impl_->nearest(a, b, 1);
-  const LineScan scan(impl_->scene, impl_->faces_near(a, b, lowest, highest), a, b);
+  // Beyond a face that is certainly crossed before a, or past b, nothing counts.
+  const double lowest = back && back->item ? -back->most : -kInfinity;
+  const double highest =
+      forth && forth->item && forth->past_b > 0 ? forth->most : kInfinity;
+  return impl_->maximal_by_all_contacts(a, b, lowest, highest);
+}
+
+std::optional<FreeSegment> internal::OcclusionAccess::maximal_exactly(
+    const OcclusionIndex& index, const Point& a, const Point& b) {
+  if (!index.is_free(a, b)) return std::nullopt;
+  return index.impl_->maximal_by_all_contacts(a, b, -kInfinity, kInfinity);
+}
+
+// By exact numbers.  `lowest` and `highest` are positions beyond which nothing counts.
+std::optional<FreeSegment> OcclusionIndex::Impl::maximal_by_all_contacts(
+    const Point& a, const Point& b, double lowest, double highest) const {
+  const LineScan scan(scene, faces_near(a, b, lowest, highest), a, b);
   End back = backward_end(scan), forth = forward_end(scan);
   for (int c = 0; c < scan.size(); ++c) {
     if (scan.from(c) <= 0 && scan.to(c) >= 1) reconcile(scan, c, back, forth);

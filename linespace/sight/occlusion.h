@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,10 @@ struct OcclusionAccess {
   /// Exactly, and counted so: no contact of the open segment with these faces blocks.
   static bool is_free_of(const Scene& scene, std::vector<int> faces, const Point& a,
                          const Point& b);
+
+  /// OcclusionIndex::maximal_free_segment() by exact numbers alone, for tests.
+  static std::optional<FreeSegment> maximal_exactly(const OcclusionIndex& index,
+                                                    const Point& a, const Point& b);
 };
 
 }  // namespace sightline::internal

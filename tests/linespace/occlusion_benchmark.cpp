@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 #include <embree3/rtcore.h>
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <tuple>
@@ -95,6 +96,28 @@ void BM_is_free(benchmark::State& state) {
   state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
 }
 
+// Two closest hits, past b and before a: what a maximal free segment asks.
+void BM_embree_two_hits(benchmark::State& state) {
+  const Setting& s = setting(state);
+  const auto& segments = s.segments[state.range(2)];
+  std::size_t i = 0, hits = 0;
+  for (auto _ : state) {
+    const auto& [a, b] = segments[i++ % segments.size()];
+    for (const bool forth : {true, false}) {
+      RTCIntersectContext context;
+      rtcInitIntersectContext(&context);
+      RTCRayHit hit;
+      hit.ray = forth ? testing::embree_ray(a, b, 1, HUGE_VALF)
+                      : testing::embree_ray(b, a, 1, HUGE_VALF);
+      hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+      rtcIntersect1(s.embree->scene(), &context, &hit);
+      hits += hit.hit.geomID != RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+  benchmark::DoNotOptimize(hits);
+  state.SetItemsProcessed(static_cast<std::int64_t>(state.iterations()));
+}
+
 void BM_maximal_free_segment(benchmark::State& state) {
   const Setting& s = setting(state);
   const auto& segments = s.segments[state.range(2)];
@@ -116,6 +139,10 @@ void settings(benchmark::internal::Benchmark* b) {
 }
 BENCHMARK(BM_embree)->Apply(settings);
 BENCHMARK(BM_is_free)->Apply(settings);
+BENCHMARK(BM_embree_two_hits)
+    ->ArgNames({"soup", "thousands", "blocked"})
+    ->Args({0, 10, 0})
+    ->Args({1, 10, 0});
 BENCHMARK(BM_maximal_free_segment)
     ->ArgNames({"soup", "thousands", "blocked"})
     ->Args({0, 10, 0})

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "linespace/contacts/contact.h"
+#include "linespace/sight/occlusion.h"
 #include "tests/support/generators.h"
 
 namespace sightline {
@@ -270,6 +271,64 @@ TEST(MaximalFreeSegment, EndsAtWallsOrOutside) {
   EXPECT_EQ(over->contacts.size(), 2u);
 
   EXPECT_FALSE(index.maximal_free_segment({-1, 4, 2}, {2, 4, 2}));
+}
+
+// What doubles certify is what exact numbers say, to the last bit: in general position,
+// where boxes stand on each other or touch, and where points lie on a grid.
+TEST(MaximalFreeSegment, CertifiedAsByExactNumbers) {
+  const std::vector<PolygonSoup> scenes{
+      testing::city(5, 900), testing::triangle_soup(3, 300),
+      testing::grid_city(2, 400, {.may_touch = true}), testing::street_city(1, 498, {})};
+  std::int64_t certified = 0, asked = 0;
+  for (const PolygonSoup& soup : scenes) {
+    for (const double scale : {1.0, 0x1p-30, 0x1p40}) {
+      PolygonSoup scaled = soup;
+      for (Point& p : scaled.vertices) p *= scale;
+      const Scene scene(scaled);
+      const OcclusionIndex index(scene);
+      testing::Random random(11);
+      for (int i = 0; i < 400; ++i) {
+        Point a = random_point(random, scene.bounds());
+        Point b = random_point(random, scene.bounds());
+        if (i % 2 == 0) {
+          for (Point* p : {&a, &b}) {
+            for (double& x : *p) x = scale * std::round(x / scale);
+          }
+        }
+        b = a + std::ldexp(1.0, -random.integer(0, 4)) * (b - a);
+        if (a == b) continue;
+        const StageCounts before = thread_stage_counts();
+        const auto m = index.maximal_free_segment(a, b);
+        certified += thread_stage_counts().by_exact == before.by_exact;
+        ++asked;
+        const auto n = internal::OcclusionAccess::maximal_exactly(index, a, b);
+        ASSERT_EQ(m.has_value(), n.has_value());
+        if (!m) continue;
+        ASSERT_EQ(m->from, n->from);
+        ASSERT_EQ(m->to, n->to);
+        ASSERT_EQ(m->from_faces, n->from_faces);
+        ASSERT_EQ(m->to_faces, n->to_faces);
+        ASSERT_EQ(m->contacts.size(), n->contacts.size());
+      }
+    }
+  }
+  EXPECT_GT(certified, asked / 2);
+  EXPECT_LT(certified, asked);
+}
+
+// The segment lies in the box of a slanted face, which the line crosses behind it.
+TEST(MaximalFreeSegment, InTheBoxOfAFaceBehind) {
+  PolygonSoup soup;
+  soup.vertices = {{10, 0, 0}, {0, 10, 0}, {0, 0, 10}};
+  soup.polygons = {{0, 1, 2}};
+  const Scene scene(soup);
+  const OcclusionIndex index(scene);
+  const auto m = index.maximal_free_segment({4, 4, 4}, {4.5, 4.5, 4.5});
+  ASSERT_TRUE(m);
+  EXPECT_EQ(m->from, (Rational(10) / 3 - 4).convert_to<double>() * 2);
+  EXPECT_EQ(m->to, kInfinity);
+  EXPECT_EQ(m->from_faces, std::vector{0});
+  EXPECT_TRUE(m->to_faces.empty());
 }
 
 TEST(MaximalFreeSegment, GenericAsByIsFree) {
