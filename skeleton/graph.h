@@ -53,9 +53,11 @@ struct SkeletonNode {
   bool second = false;
   /// Polygon mode: the free segment ends in the first, in the last contact.
   std::array<bool, 2> ends{};
-  /// Silhouettes in order along the line: `count` of them from Skeleton::generators(). VV
-  /// begins with the smaller vertex, VEE and FvE with their vertex, others from the end
-  /// with the smaller generators: however the line was found.
+  /// The generators in order along the line: `generator_count` of them, from
+  /// `first_generator` on in Skeleton::generator_pool (see Skeleton::generators()).  The
+  /// order does not depend on how the line was found: VV begins with the smaller vertex,
+  /// VEE and FvE with their vertex, other kinds with the end whose generators are
+  /// smaller.
   std::uint32_t first_generator = 0;
   std::uint32_t generator_count = 0;
   /// The outermost contacts, rounded to double.

@@ -23,8 +23,9 @@ class Emptiness {
             CoverWriter& writer, Precision precision, VisibilityCost& counts);
   ~Emptiness();
 
-  // Each is about the cell of the path and the domain.  True: empty, and the proof is
-  // written; with Precision::Double, as rounding has it.
+  // Each function below tries to prove that the cell of this path and this domain is
+  // empty.  True: it is empty, and the proof has been written.  At Precision::Double the
+  // proof is only as good as rounded numbers are.
 
   /// By linear inequalities at the corner pairs.  False: `start` is where they have the
   /// largest margin.

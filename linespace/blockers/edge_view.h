@@ -33,8 +33,9 @@ class EdgeView {
 
   /// No point of the box is on a line that touches the edge.
   [[nodiscard]] bool never_touched_from(const Box& box) const;
-  /// One occluder that hid something lately hides from the whole edge each segment in the
-  /// box, the segment q0 q1.
+  /// Some occluder, of those that hid something lately, hides the box from the whole
+  /// edge: it stands in the way of every segment from the edge to the box. The second
+  /// form asks the same for the segment q0 q1 in place of a box.
   [[nodiscard]] bool hides(const Box& box) { return whole().occluders.hider(box) >= 0; }
   [[nodiscard]] bool hides(const Point& q0, const Point& q1) {
     return whole().occluders.hider(q0, q1) >= 0;
@@ -57,10 +58,12 @@ class EdgeView {
     double from, to;
     int hidden_by;  ///< a face of an occluder that hides the other edge from it, or -1
   };
-  /// Tells the edge's parts, in order: all of it where few blockers are between it and
-  /// the group, else its pieces, of which `open` are not known to be hidden; and the
-  /// faces, by boxes, that lines from the others may enter something by on their way, of
-  /// an occluder of a hidden part all.  False when all are hidden.
+  /// Lists the parts of the edge in order, each with what hides q0 q1 from it.  There is
+  /// one part, the whole edge, where few occluders are between it and the group; else the
+  /// edge's pieces.  Pieces whose bit is not in `open` are known to be hidden.
+  /// Also lists faces whose boxes lines from the parts that are not hidden may meet:
+  /// those by which lines enter an occluder.  Of an occluder that hides a part, all faces
+  /// are listed.  Returns false when every part is hidden.
   [[nodiscard]] bool look(Pieces open, const Point& q0, const Point& q1,
                           std::vector<Part>& parts, std::vector<std::int32_t>& faces);
   /// All that was between the edge, but for hidden parts of it, and the other one

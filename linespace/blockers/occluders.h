@@ -32,7 +32,9 @@ class Occluders {
   void look_at(const Box& box);
   void look_away() { looking_ = false; }
 
-  /// A face of one that hid something lately and hides each segment in the box; -1.
+  /// Looks for an occluder, among those that hid something lately, that hides every
+  /// segment inside the box from all viewpoints.  Returns one of its faces, -1 if there
+  /// is none.
   [[nodiscard]] int hider(const Box& box);
   /// The segment q0 q1.
   [[nodiscard]] int hider(const Point& q0, const Point& q1);

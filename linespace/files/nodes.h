@@ -23,10 +23,11 @@ class NodeGroups {
   /// last - 1.  Nodes without name or faces are left out.
   void add(const std::string& name, int first, int last, bool is_root);
 
-  /// The groups.  A face's object is the first group that lists it: of the nodes above it
-  /// the nearest whose name is its own; names that several nodes bear ("IfcMappedItem")
-  /// and the root's come last.  Throws InvalidInput when nodes are nested so deep that
-  /// lists_too_many.
+  /// The groups, in the order in which a face takes its object from them: a face's object
+  /// is the first group that lists it.  Of the nodes above a face the nearest comes
+  /// first, if no other node has its name.  Names that several nodes have
+  /// ("IfcMappedItem") come after these; the root's comes with them.  Throws InvalidInput
+  /// when nodes are nested so deep that lists_too_many() holds.
   [[nodiscard]] std::vector<PolygonSoup::Group> groups();
 
  private:

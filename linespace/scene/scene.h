@@ -98,7 +98,7 @@ struct SceneBuilder {
 
   void run();
 
-  void check_usable() const;  // scene_validate.cpp
+  void check_usable() const;  // validate.cpp
   void check_duplicates();
   void report(std::string kind, std::string message, std::vector<int> faces,
               std::vector<int> vertices = {});
@@ -109,16 +109,16 @@ struct SceneBuilder {
   void index_faces();
   void find_bounds();
 
-  void make_objects();  // scene_objects.cpp
+  void make_objects();  // objects.cpp
   void describe_objects();
 
-  void drop_copies();  // scene_copies.cpp
+  void drop_copies();  // copies.cpp
 
-  void turn_shells();  // scene_shells.cpp
+  void turn_shells();  // shells.cpp
   void turn_face(int face);
   void report_inside_out(const std::vector<int>& shell, bool is_part, int around);
 
-  void collect_half_edges();  // scene_edges.cpp
+  void collect_half_edges();  // edges.cpp
   void classify_edges();
   void make_facets(DisjointSets& regions);
   void join_edges();

@@ -35,9 +35,10 @@ class SolidIndex {
     const auto w = windings(object, p);
     return w ? std::optional(w->solid - w->turned) : std::nullopt;
   }
-  /// How many times the faces with material behind them do, and how many times those of
-  /// shells turned inside out would, turned outwards.  Points with rational coordinates
-  /// take some microseconds a face.
+  /// What winds around a point.  `solid`: how many times the faces with material behind
+  /// them do.  `turned`: how many times the faces of shells turned inside out would, if
+  /// these were turned outwards.  Points with rational coordinates take some microseconds
+  /// a face.
   struct Windings {
     int solid = 0, turned = 0;
   };

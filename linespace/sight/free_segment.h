@@ -33,8 +33,8 @@ namespace sightline::internal {
 /// No contact blocks the open part of the line between its positions 0 and 1.
 [[nodiscard]] bool free_between(const Silhouettes& silhouettes, const LineScan& scan);
 
-/// Whether the contact at 0, that at 1 blocks the closed segment [0, 1]; nullopt when
-/// some contact blocks it strictly in between.
+/// For each end of the closed segment [0, 1]: whether the contact there blocks the
+/// segment.  nullopt when the segment is blocked strictly between its ends.
 /// A part of the line that runs between two faces of closed objects that touch each other
 /// is inside the union, and blocked.
 [[nodiscard]] std::optional<std::array<bool, 2>> blocked_ends(

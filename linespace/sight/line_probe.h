@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "linespace/generator.h"
-#include "linespace/sight/line_probe.h"
 #include "linespace/silhouettes/silhouettes.h"
 
 namespace sightline::internal {
@@ -17,10 +16,11 @@ class LineProbe {
  public:
   explicit LineProbe(const Silhouettes& silhouettes) : g_(silhouettes) {}
 
-  /// False: certain that the line through a and b, each off by at most `error`, touches
-  /// nothing along its maximal free segment around both but the objects of `known`, its
-  /// silhouettes, that are convex, and of others the facets at these.  Requires that the
-  /// segment from a to b is free.  Cost: some microseconds.
+  /// False is certain: along its maximal free segment around a and b the line touches
+  /// nothing but what `known` explains.  `known` are the generators that the line was
+  /// found by.  A generator on a convex object explains all of that object; one on
+  /// another object explains only the facets at the generator.  a and b may be off by
+  /// `error`. Requires that the segment from a to b is free.  Cost: some microseconds.
   [[nodiscard]] bool may_touch_more(const Point& a, const Point& b, double error,
                                     std::span<const Generator> known);
 
@@ -29,7 +29,7 @@ class LineProbe {
   [[nodiscard]] bool named(int face) const;
 
   const Silhouettes& g_;
-  std::vector<std::int32_t> objects_, facets_;  // of the silhouettes
+  std::vector<std::int32_t> objects_, facets_;  // of the generators
 };
 
 /// Face ids, ascending, of all faces that meet the line through a and b along its maximal

@@ -15,8 +15,8 @@ struct BuriedStretch {
   /// The faces at its two ends; -1 where it begins at the edge's first end, ends at the
   /// second.
   std::int32_t from, to;
-  /// Parameters on the edge, certainly on the stretch or at its ends: what it is left of
-  /// it by rounding inwards.
+  /// Parameters on the edge of the stretch's two ends, each rounded into the stretch: all
+  /// of the edge between `low` and `high` is certainly buried.
   double low, high;
 };
 

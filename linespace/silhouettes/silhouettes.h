@@ -1,5 +1,6 @@
-// The generators of a scene as events see them: which edges can be silhouettes and when,
-// and which lines graze a corner.  Computed once per scene; shared by all viewpoints.
+// Which features of a scene can make events: the edges that can be silhouettes (ridges),
+// from where lines graze them, and the corners with the faces around them (stars).
+// Computed once for a scene; shared by all viewpoints.
 
 #pragma once
 
@@ -60,8 +61,10 @@ struct Ridge {
   /// Polygon mode, `touched`: what is seen differs along the edge and is asked line by
   /// line (silhouettes/drawn.h).
   bool any_side = false;
-  /// `touched`: the foreign faces, where each meets the open edge in one point, inside
-  /// its facet, and the lines to all other points need no general test.  Else empty.
+  /// Faces of other objects that the open edge passes through.  Not empty only if
+  /// `touched`, each of these faces meets the edge in one point inside its facet, and no
+  /// other foreign face touches the edge: then only lines to these points need the
+  /// general contact test.
   std::vector<std::int32_t> pierced_by = {};
   /// Then: where the edge is in the material of solids.
   std::vector<BuriedStretch> buried = {};

@@ -24,8 +24,10 @@ class StarTurns {
   [[nodiscard]] bool doubled() const { return doubled_; }
   /// In order along the edge: Support where a face is edge-on, Saddle elsewhere.
   [[nodiscard]] std::span<const Cut> cuts() const { return cuts_; }
-  /// From that cut, or the start, up to the next one no line is blocked by the star.
-  /// Cost: the square of the number of rays, times that of faces.
+  /// Whether lines to the points between the cut `from` and the next cut pass the star:
+  /// its faces, seen along such a line, leave some direction free.  To ask from the
+  /// edge's start on, `from` is the start.  Example: a line that grazes a box's corner
+  /// passes. Cost: the square of the number of rays, times that of faces.
   [[nodiscard]] bool leaves_gap(const Cut& from);
 
  private:

@@ -75,7 +75,9 @@ enum class CurveCutKind : std::uint8_t {
 /// A position on the curve.  Two cuts with the same kind, feature and `rising` are equal.
 struct CurveCut {
   CurveCutKind kind;
-  /// Crossing: of the two roots that where H, taken in order of carriers, rises.
+  /// Crossing: H has two roots.  True: the cut is the root at which H rises; false: the
+  /// one at which it falls.  Of the two forms of H, that of the carrier with the smaller
+  /// number comes first, so that the sign of H does not depend on who asks.
   bool rising = false;
   /// Far, Middle: point id; OnFirst, OnPlane, OnFar: facet id; Crossing: carrier;
   /// Given: number.

@@ -53,10 +53,10 @@ class PairCells {
   /// the face's solid before they can leave it.
   void add_face(int face, std::int64_t occluder, bool front_only, const Linear& p,
                 const Linear& q, std::span<const Side> sides);
-  /// With all faces added, takes the square part by part: segments from a part of the
-  /// first edge, halved any number of times, to the last one.  Divides it; a face of
-  /// the one occluder that hides all of it, or -1.  `is_middle` says whether a ridge may
-  /// be a middle edge.
+  /// Divides the part of the square whose segments begin between s0 and s1 on the first
+  /// edge; that range is the whole edge halved any number of times.  All faces must have
+  /// been added.  Returns a face of the one occluder that hides the whole part, -1 if
+  /// there is none.  `is_middle(ridge)` says whether a ridge may be a middle edge.
   [[nodiscard]] int divide(double s0, double s1,
                            const std::function<bool(int)>& is_middle);
   /// The part is known to be hidden by this occluder, of which all faces were added.

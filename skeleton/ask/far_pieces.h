@@ -28,8 +28,9 @@ namespace sightline::internal {
 struct FarPiece {
   /// Parameters, off by at most kRangeError.
   std::array<double, 2> range;
-  /// Before the first contact (the vertex of an EV arc), beyond the last; -1 for the
-  /// outside, and on the side on which the arc ends in its contact: end_faces().
+  /// The face on which the lines end before the first contact (an EV arc's vertex), and
+  /// beyond the last.  -1 where they leave the scene; also on a side where the outer
+  /// contact is an end contact: end_faces() has the faces there.
   std::array<int, 2> faces;
   /// Certain that no line of the arc goes on farther than this and the neighbouring
   /// pieces say: not one where two pieces meet either, nor one at an end of the arc.

@@ -60,7 +60,7 @@ std::vector<int> faces_towards(const Silhouettes& g, const Point& v, const Point
   return found;
 }
 
-// Of a node that was added without: kind, silhouettes.
+// Kind and generators of a node that was added without them.
 void name_node(VertexView& view, std::uint32_t id, const NodeContacts& contacts) {
   SkeletonNode& node = view.nodes[id];
   node.kind = contacts.kind;

@@ -64,8 +64,10 @@ struct EvPart {
 
 /// Pairs of outer edges, and the edges of which an arc must have one.
 struct EeePart {
-  /// Bits, by ridge: a pair is asked for iff one offers what the other wants, which is
-  /// symmetric.  Ridges that may take no part offer and want nothing.  Empty: all.
+  /// For each ridge, a set of bits.  A pair of outer edges is asked for iff one offers a
+  /// bit that the other wants; it does not matter which of the two is asked.  A ridge
+  /// that takes no part offers and wants nothing.  Both lists empty: every pair is asked
+  /// for.
   std::vector<std::uint8_t> offers, wants;
   std::vector<std::uint8_t> below;  ///< by node of the ridge tree: all offers below
   std::vector<std::uint8_t> kept;   ///< may be one of the three; empty: all

@@ -17,8 +17,11 @@ struct VertexViewer::PairLists {
   std::vector<std::int32_t> blockers;  // whose boxes may meet the triangle
   std::vector<std::int32_t> faces;     // the same: once they are listed
   std::vector<std::int32_t> edge_facets;
-  std::vector<CutInterval> ending;       // polygon mode: the viewpoint is one
-  std::vector<std::uint8_t> piece_ends;  // of each piece of the open part, so split
+  // Polygon mode: where along the edge the contact at the viewpoint is an end contact.
+  std::vector<CutInterval> ending;
+  // The open part is split where `ending` begins and ends.  For each piece of it: 1 if
+  // the contact at the viewpoint is an end contact there.
+  std::vector<std::uint8_t> piece_ends;
   // Where a face of the star is edge-on, and on both sides the viewpoint is (is no) end.
   struct Turn {
     Cut at;

@@ -33,15 +33,16 @@ struct VertexView {
   std::vector<CutInterval> intervals;       ///< exact ranges of `arcs`, while it is built
   std::deque<Rational> positions;           ///< of cuts that keep a pointer
   std::vector<Simplified::Arc> short_arcs;  ///< left out
-  /// Of the nodes: found among zero signs, so that its contacts are listed; or not named
-  /// until then.
+  /// For each node: 1 if it was found where a sign is zero, so that its contacts must be
+  /// listed; kUnnamed if it has no name until they are; else 0.
   std::vector<std::uint8_t> special;
   static constexpr std::uint8_t kUnnamed = 2;
   /// Of the arcs, while it is built: found among zero signs.
   std::vector<std::uint8_t> special_arcs;
-  /// Of the nodes: as of NodeContacts.
+  /// For each node: NodeContacts::line, the name that tells its line from others.
   std::vector<LineName> lines;
-  /// Of the nodes: an arc of solid mode ends there, or for EVE nodes two line up.
+  /// For each node: whether an arc of solid mode ends there; for an EVE node, whether two
+  /// such arcs line up.
   std::vector<std::uint8_t> grazes;
   /// EVE nodes, by positions on the edges of two arcs.
   struct LineUp {

@@ -16,8 +16,8 @@
 
 namespace sightline::internal {
 
-/// A line that touches no more than the other lines of the arc that ends there; what the
-/// end contacts are is the arc's to say.
+/// Kinds of lines that touch no more than the other lines of an arc, and in which that
+/// one arc ends.  Which of their contacts are end contacts, the arc says.
 [[nodiscard]] inline bool ends_one_arc(NodeKind kind) {
   return kind == NodeKind::Pierce || kind == NodeKind::Saddle;
 }
@@ -48,8 +48,8 @@ struct NodeContacts {
   std::optional<std::array<Rational, 2>> free_part;
 };
 
-/// The node that these contacts make, given in order along the line and listed from the
-/// end with the smaller silhouettes.
+/// The node that these contacts make.  The contacts are given in order along the line;
+/// the node lists its generators from the end with the smaller ones.
 [[nodiscard]] NodeContacts node_along(
     const Silhouettes& silhouettes, const std::vector<std::vector<Generator>>& contacts);
 
@@ -58,7 +58,7 @@ struct NodeContacts {
                                             const LineScan& scan);
 
 /// Of those along the whole maximal free segment around [0, 1] of the scan's line, given
-/// by its points at 0 and 1; listed from the end with the smaller silhouettes.  `end`
+/// by its points at 0 and 1; listed from the end with the smaller generators.  `end`
 /// says that the line may end at 0 or 1.  Polygon mode: `grazes` says that an arc of
 /// solid mode ends there, and then the contacts are those of solid mode; else those at
 /// which the free segment ends are among them, where they are corners or edges.  `name`:

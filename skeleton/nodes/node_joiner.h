@@ -21,10 +21,10 @@ class NodeJoiner {
   explicit NodeJoiner(Skeleton& skeleton, std::uint32_t hash_mask = NodeTable::kAllBits)
       : out_(skeleton), lines_(skeleton, hash_mask), eeee_(skeleton, hash_mask) {}
 
-  /// The number of the line's node, which is as given where it is new (its generators'
-  /// place aside).  `grazes`: an arc of solid mode ends there; what such arcs say of
-  /// `end` and `ends` counts, and only where none ends there, what the others say.
-  /// `line` is that of NodeContacts.
+  /// The number of the line's node.  A new line gets `node` as its node, with its own
+  /// place in the generator pool.  `grazes`: an arc of solid mode ends in the line.  If
+  /// any such arc does, only what these arcs say of `end` and `ends` counts; else what
+  /// the others say.  `line` is NodeContacts::line.
   std::uint32_t join(const SkeletonNode& node, std::span<const Generator> generators,
                      bool grazes, std::string_view line = {}) {
     return join_in(lines_, node, generators, grazes, line);

@@ -161,7 +161,7 @@ Comparison compare_line_by_line(const PolygonSoup& soup, int samples_per_edge) {
         }
         if (at_end) continue;
         const auto [free, edge_on] = boxes.judge(from, to);
-        // Silhouettes are those of the single solids, contacts those of their union: a
+        // Generators are those of the single solids, contacts those of their union: a
         // corner or edge that a touching solid smooths over may keep free lines.
         const bool generators = boxes.is_corner(from) && boxes.is_ridge(to, axis);
         if (!generators && (free || edge_on)) {
