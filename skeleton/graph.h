@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "linespace/predicates.h"
 #include "linespace/request.h"
 #include "linespace/scene.h"
+#include "linespace/swath.h"
 
 namespace sightline {
 
@@ -131,5 +133,11 @@ struct Skeleton {
     return {generator_pool.data() + node.first_generator, node.generator_count};
   }
 };
+
+/// The lines that an arc is a part of, positions as in its `range`.  nullopt where the
+/// three edges of an EEE arc lie so that their lines are no set of one parameter: two
+/// edges in one line, or all in one plane.
+[[nodiscard]] std::optional<Swath> swath_of(const Scene& scene, const SkeletonArc& arc);
+[[nodiscard]] std::optional<Swath> swath_of(const Scene& scene, const EeeArc& arc);
 
 }  // namespace sightline

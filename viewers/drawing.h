@@ -66,6 +66,18 @@ struct SceneView {
 void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
               std::span<const int> arcs, float opacity);
 
+/// The deviation from surfaces that files and pictures keep to: this share of the scene's
+/// diagonal.
+constexpr double kEeeDeviation = 1e-3;
+
+/// The arc's lines from end to end, to kEeeDeviation of the scene's diagonal
+/// (Swath::rungs).
+[[nodiscard]] std::vector<std::array<Point, 2>> rungs_of(const Scene& scene,
+                                                         const EeeArc& arc);
+
+/// Swath::spanned_volume of an arc: how much there is to see of its curvature.
+[[nodiscard]] double spanned_volume(const Scene& scene, const EeeArc& arc);
+
 /// The surface of an EEE arc between its outer edges, to kEeeDeviation.
 void add_eee_arc(Drawing& drawing, const Scene& scene, const EeeArc& arc, float opacity);
 

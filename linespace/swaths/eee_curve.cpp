@@ -155,12 +155,11 @@ std::optional<double> EeeCurve::rounded_from_balls(const CurveCut& cut) const {
 }
 
 // Coefficients of H = h0 (1-s)^2 + h1 s (1-s) + h2 s^2.
-std::array<Ring, 3> EeeCurve::exact_quadratic(int carrier) const {
-  const auto h = resultant(exact_form(), pair_.exact_form(carriers_[carrier]));
-  return {h.h0, h.h1, h.h2};
+Quadratic<Ring> EeeCurve::exact_quadratic(int carrier) const {
+  return resultant(exact_form(), pair_.exact_form(carriers_[carrier]));
 }
 
-EeeCurve::Root EeeCurve::exact(const CurveCut& cut) const {
+QuadraticRoot EeeCurve::exact(const CurveCut& cut) const {
   if (cut.kind == CurveCutKind::Start) return {0, 0, 1, 0};
   if (cut.kind == CurveCutKind::End) return {1, 0, 1, 0};
   if (cut.kind == CurveCutKind::Given) {
@@ -170,31 +169,17 @@ EeeCurve::Root EeeCurve::exact(const CurveCut& cut) const {
   }
   if (cut.kind != CurveCutKind::Crossing) {
     const auto [x, y] = exact_linear(cut);
-    const Ring c = x - y;
-    if (sign_of(c) == Sign::Negative) return {-x, 0, -c, 0};
-    return {x, 0, c, 0};
+    return linear_root(x, y);
   }
-  const auto h = exact_quadratic(cut.feature);
-  const Ring a = h[0] - h[1] + h[2];
-  const Ring b = h[1] - 2 * h[0];
-  const Sign sign_a = sign_of(a);
-  if (sign_a == Sign::Zero) {
-    if (sign_of(b) == Sign::Negative) return {h[0], 0, -b, 0};
-    return {-h[0], 0, b, 0};
-  }
-  const Ring d = b * b - 4 * a * h[0];
-  // H' is +sqrt(d) at (-b + sqrt(d)) / 2a, where H rises; canonical order turns that.
-  const bool rising = cut.rising == (middle_ < cut.feature);
-  const Ring root = rising ? 1 : -1;
-  if (sign_a == Sign::Positive) return {-b, root, 2 * a, d};
-  return {b, -root, -2 * a, d};
+  // Where H rises, taken in order of carriers: H as it is may be turned.
+  return root(exact_quadratic(cut.feature), cut.rising == (middle_ < cut.feature));
 }
 
 bool EeeCurve::rises_at(int carrier, const std::optional<Rational>& s,
                         bool larger) const {
   const auto h = exact_quadratic(carrier);
-  const Ring a = h[0] - h[1] + h[2];
-  const Ring b = h[1] - 2 * h[0];
+  const Ring a = h.h0 - h.h1 + h.h2;
+  const Ring b = h.h1 - 2 * h.h0;
   Sign slope = larger ? sign_of(a) : -sign_of(a);
   if (s) {
     const auto ring = [](const auto& x) { return Ring(CGAL::Gmpz(x.backend().data())); };
@@ -226,9 +211,7 @@ Sign EeeCurve::compare(const CurveCut& a, const CurveCut& b) const {
   if (a.lo > b.hi) return Sign::Positive;
   if (in_double()) return sign_of(a.parameter() - b.parameter());
   ++stage_counts.by_exact;
-  const Root x = exact(a);
-  const Root y = exact(b);
-  return sign_of_sum({x.a * y.c - y.a * x.c, x.b * y.c}, {-(y.b * x.c), 0}, x.d, y.d);
+  return internal::compare(exact(a), exact(b));
 }
 
 BoundedLinear EeeCurve::at_last_edge(const BoundedValue& a0, const BoundedValue& a1,
@@ -283,7 +266,7 @@ Rational rational(const Ring& x) {
 }  // namespace
 
 std::optional<Rational> EeeCurve::rational_parameter(const CurveCut& cut) const {
-  const Root root = exact(cut);
+  const QuadraticRoot root = exact(cut);
   // Only where a sign was left to rounding has the cut no place of its own.
   if (is_zero(root.c)) return Rational(cut.parameter());
   Rational s = rational(root.a);
@@ -324,7 +307,7 @@ std::optional<std::array<ExactPoint, 2>> EeeCurve::points_at(const Rational& s) 
 
 // With x = (x0 : x1) on the first edge, y = (F1(x) : -F0(x)) on the last.
 std::optional<ExactLine> EeeCurve::line_at(const CurveCut& cut) const {
-  const Root r = exact(cut);
+  const QuadraticRoot r = exact(cut);
   const std::array<Surd, 2> x{Surd{r.c - r.a, -r.b}, Surd{r.a, r.b}};
   const auto& f = exact_form().f;
   const std::array<Surd, 2> y{x[0] * f[0][1] + x[1] * f[1][1],
@@ -347,7 +330,7 @@ std::optional<Rational> EeeCurve::between(const CurveCut& a, const CurveCut& b) 
 double EeeCurve::rounded(const CurveCut& cut) const {
   if (cut.hi - cut.lo <= kRangeError || in_double()) return cut.parameter();
   if (const auto s = rounded_from_balls(cut)) return *s;
-  const Root r = exact(cut);
+  const QuadraticRoot r = exact(cut);
   return quotient({r.a, r.b}, {r.c, 0}, r.d);
 }
 
@@ -498,17 +481,17 @@ void EeeCurve::where_exactly(int carrier, Sign wanted, const CurveInterval& in,
                              std::vector<CurveInterval>& out, bool& degenerate) const {
   ++stage_counts.by_exact;
   const auto h = exact_quadratic(carrier);
-  const Ring a = h[0] - h[1] + h[2];
-  const Ring b = h[1] - 2 * h[0];
+  const Ring a = h.h0 - h.h1 + h.h2;
+  const Ring b = h.h1 - 2 * h.h0;
   const Sign sign_a = sign_of(a);
   const Sign sign_b = sign_of(b);
   if (sign_a == Sign::Zero && sign_b == Sign::Zero) {
-    const Sign s = sign_of(h[0]);
+    const Sign s = sign_of(h.h0);
     if (s == Sign::Zero) degenerate = true;
     if (s == wanted) out.push_back(in);
     return;
   }
-  const Ring d = b * b - 4 * a * h[0];
+  const Ring d = b * b - 4 * a * h.h0;
   if (sign_a != Sign::Zero && sign_of(d) != Sign::Positive) {
     if (sign_a == wanted) out.push_back(in);  // at most touched
     return;
@@ -520,7 +503,7 @@ void EeeCurve::where_exactly(int carrier, Sign wanted, const CurveInterval& in,
     cut.kind = CurveCutKind::Crossing;
     cut.feature = carrier;
     cut.rising = rises == (middle_ < carrier);
-    const Root r = exact(cut);
+    const QuadraticRoot r = exact(cut);
     const double s = quotient({r.a, r.b}, {r.c, 0}, r.d);
     const double margin = std::abs(s) * 2 * kQuotientError + 0x1p-1000;
     cut.lo = s - margin;
@@ -538,14 +521,14 @@ void EeeCurve::where_exactly(int carrier, Sign wanted, const CurveInterval& in,
   const CurveCut* next = roots;
   const auto beyond_start = [&](const CurveCut& c) {
     if (in.from.kind == CurveCutKind::Start) {
-      const Root r = exact(c);
+      const QuadraticRoot r = exact(c);
       return sign_of(Surd{r.a, r.b}, r.d) == Sign::Positive;
     }
     return compare(in.from, c) == Sign::Negative;
   };
   const auto before_end = [&](const CurveCut& c) {
     if (in.to.kind == CurveCutKind::End) {
-      const Root r = exact(c);
+      const QuadraticRoot r = exact(c);
       return sign_of(Surd{r.a - r.c, r.b}, r.d) == Sign::Negative;
     }
     return compare(c, in.to) == Sign::Negative;
@@ -603,7 +586,7 @@ Sign EeeCurve::order_at(const CurveCut& cut, int carrier, const BoundedForm& for
     return ring_orient3d(pair_.at(edge[0]), pair_.at(edge[1]), pair_.at(line.points[0]),
                          pair_.at(line.points[1]));
   };
-  const Root r = exact(cut);
+  const QuadraticRoot r = exact(cut);
   // (w0 (c - r) + w1 r) / c at r = a + b sqrt(d)
   const auto sign_at = [&](const Ring& w0, const Ring& w1) {
     return sign_of(Surd{w0 * (r.c - r.a) + w1 * r.a, (w1 - w0) * r.b}, r.d);

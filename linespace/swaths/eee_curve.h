@@ -25,6 +25,7 @@
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
 #include "linespace/space/shaft.h"
+#include "linespace/swaths/quadratic_root.h"
 
 namespace sightline::internal {
 
@@ -186,10 +187,7 @@ class EeeCurve {
   [[nodiscard]] double last_parameter(double s) const;
 
  private:
-  struct Root {
-    Ring a, b, c, d;  // (a + b sqrt(d)) / c, c > 0
-  };
-  [[nodiscard]] Root exact(const CurveCut& cut) const;
+  [[nodiscard]] QuadraticRoot exact(const CurveCut& cut) const;
   [[nodiscard]] std::optional<Rational> rational_parameter(const CurveCut& cut) const;
   [[nodiscard]] const BilinearForm<Ring>& exact_form() const;
   template <class Orient, class CurveForm>
@@ -198,7 +196,7 @@ class EeeCurve {
   [[nodiscard]] BilinearForm<BallNumber> ball_form(int carrier) const;
   [[nodiscard]] std::optional<double> rounded_from_balls(const CurveCut& cut) const;
   [[nodiscard]] std::array<Ring, 2> exact_linear(const CurveCut& cut) const;
-  [[nodiscard]] std::array<Ring, 3> exact_quadratic(int carrier) const;
+  [[nodiscard]] Quadratic<Ring> exact_quadratic(int carrier) const;
   void where_exactly(int carrier, Sign wanted, const CurveInterval& in,
                      std::vector<CurveInterval>& out, bool& degenerate) const;
   void keep(const CurveInterval& in, const CurveCut* roots, int count, Sign first,

@@ -14,7 +14,6 @@
 #include "viewers/commands/command_line.h"
 #include "viewers/commands/outputs.h"
 #include "viewers/drawing.h"
-#include "viewers/eee_surface.h"
 #include "viewers/json_text.h"
 #include "viewers/page.h"
 #include "viewers/palette.h"
@@ -217,12 +216,12 @@ PagePicture eee_picture(const SceneView& view, const Canvas& canvas, const Scene
   SceneView marked = view;
   add_eee_arc(marked.drawing, scene, arc, 0.45F);
   const Colour colour = colour_of_kind(kind_name(arc));
-  const EeeSurface surface(scene, arc);
+  const auto swath = swath_of(scene, arc);
   constexpr int kLines = 24;
-  for (int i = 1; i < kLines; ++i) {
+  for (int i = 1; swath && i < kLines; ++i) {
     const double s =
         arc.range[0] + (arc.range[1] - arc.range[0]) * static_cast<double>(i) / kLines;
-    marked.drawing.strokes.push_back({surface.line(s), colour, 1.1F, 0.75F, 0.12F});
+    marked.drawing.strokes.push_back({swath->line(s), colour, 1.1F, 0.75F, 0.12F});
   }
   for (const int e : arc.edges) {
     add_edge(marked.drawing, scene, e, kGeneratorEdge, 4.0F, 0.35F);

@@ -30,7 +30,6 @@
 #include <map>
 
 #include "linespace/work/stage.h"
-#include "viewers/eee_surface.h"
 #include "viewers/json_text.h"
 #include "viewers/output_file.h"
 #include "viewers/palette.h"

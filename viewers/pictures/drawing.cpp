@@ -9,7 +9,6 @@
 
 #include "linespace/work/stage.h"
 #include "viewers/clip.h"
-#include "viewers/eee_surface.h"
 #include "viewers/palette.h"
 
 namespace sightline::viewers {
@@ -312,6 +311,18 @@ void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
     drawing.veils.push_back({{v, a, b}, colour, opacity});
     drawing.strokes.push_back({{a, b}, colour, 1.6F, std::min(1.0F, 4 * opacity)});
   }
+}
+
+std::vector<std::array<Point, 2>> rungs_of(const Scene& scene, const EeeArc& arc) {
+  const double size = (scene.bounds()[1] - scene.bounds()[0]).norm();
+  const auto swath = swath_of(scene, arc);
+  return swath ? swath->rungs(arc.range, kEeeDeviation * size)
+               : std::vector<std::array<Point, 2>>{};
+}
+
+double spanned_volume(const Scene& scene, const EeeArc& arc) {
+  const auto swath = swath_of(scene, arc);
+  return swath ? swath->spanned_volume(arc.range) : 0;
 }
 
 void add_eee_arc(Drawing& drawing, const Scene& scene, const EeeArc& arc, float opacity) {

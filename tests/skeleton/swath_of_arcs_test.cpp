@@ -1,7 +1,5 @@
 // The drawn patch of an EEE arc is where the arc's lines are, to the deviation promised.
 
-#include "viewers/eee_surface.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -11,7 +9,7 @@
 #include "linespace/mesh_io.h"
 #include "skeleton/build.h"
 
-namespace sightline::viewers {
+namespace sightline {
 namespace {
 
 double distance_to_segment(const Point& x, const Point& a, const Point& b) {
@@ -43,9 +41,9 @@ double distance_to_strip(const Point& x, const std::vector<std::array<Point, 2>>
   return best;
 }
 
-class EeeSurfaceTest : public testing::Test {
+class SwathOfArcs : public testing::Test {
  protected:
-  EeeSurfaceTest()
+  SwathOfArcs()
       : scene_(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj")),
         skeleton_(build_skeleton(scene_, eee_only())),
         size_((scene_.bounds()[1] - scene_.bounds()[0]).norm()) {}
@@ -61,10 +59,10 @@ class EeeSurfaceTest : public testing::Test {
   double size_;
 };
 
-TEST_F(EeeSurfaceTest, LinesMeetTheMiddleEdgeAndEndAtTheNodes) {
+TEST_F(SwathOfArcs, LinesMeetTheMiddleEdgeAndEndAtTheNodes) {
   ASSERT_GT(skeleton_.eee_arcs.size(), 1000U);
   for (const EeeArc& arc : skeleton_.eee_arcs) {
-    const EeeSurface surface(scene_, arc);
+    const Swath surface = swath_of(scene_, arc).value();
     const auto& middle = scene_.edges()[arc.edges[1]].points;
     const Point &m0 = scene_.point(middle[0]), &m1 = scene_.point(middle[1]);
     for (const double t : {0.1, 0.5, 0.9}) {
@@ -95,14 +93,14 @@ TEST_F(EeeSurfaceTest, LinesMeetTheMiddleEdgeAndEndAtTheNodes) {
   }
 }
 
-TEST_F(EeeSurfaceTest, StripKeepsToItsDeviationAndNeedsIt) {
+TEST_F(SwathOfArcs, StripKeepsToItsDeviationAndNeedsIt) {
   double largest = 0;  // share of the deviation allowed
   std::size_t subdivided = 0;
   for (const double share : {1e-2, 1e-3}) {
     const double deviation = share * size_;
     for (std::size_t i = 0; i < skeleton_.eee_arcs.size(); i += 17) {
       const EeeArc& arc = skeleton_.eee_arcs[i];
-      const EeeSurface surface(scene_, arc);
+      const Swath surface = swath_of(scene_, arc).value();
       const auto rungs = surface.rungs(arc.range, deviation);
       ASSERT_GE(rungs.size(), 2U);
       subdivided += rungs.size() > 2 ? 1 : 0;
@@ -122,10 +120,10 @@ TEST_F(EeeSurfaceTest, StripKeepsToItsDeviationAndNeedsIt) {
   EXPECT_GT(largest, 0.35);
 }
 
-TEST_F(EeeSurfaceTest, SubdivisionFollowsTheDeviation) {
+TEST_F(SwathOfArcs, SubdivisionFollowsTheDeviation) {
   std::size_t coarse = 0, fine = 0;
   for (const EeeArc& arc : skeleton_.eee_arcs) {
-    const EeeSurface surface(scene_, arc);
+    const Swath surface = swath_of(scene_, arc).value();
     coarse += surface.rungs(arc.range, 1e-2 * size_).size();
     fine += surface.rungs(arc.range, 1e-4 * size_).size();
   }
@@ -133,4 +131,4 @@ TEST_F(EeeSurfaceTest, SubdivisionFollowsTheDeviation) {
 }
 
 }  // namespace
-}  // namespace sightline::viewers
+}  // namespace sightline
