@@ -19,27 +19,11 @@ using internal::SurdVector;
 
 namespace {
 
-RingVector cross(const RingVector& u, const RingVector& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-          u[0] * v[1] - u[1] * v[0]};
-}
-SurdVector cross(const RingVector& u, const SurdVector& v) {
-  return {v[2] * u[1] - v[1] * u[2], v[0] * u[2] - v[2] * u[0],
-          v[1] * u[0] - v[0] * u[1]};
-}
-SurdVector cross(const SurdVector& u, const SurdVector& v, const Ring& d) {
-  return {product(u[1], v[2], d) - product(u[2], v[1], d),
-          product(u[2], v[0], d) - product(u[0], v[2], d),
-          product(u[0], v[1], d) - product(u[1], v[0], d)};
-}
+using internal::cross;
+using internal::dot;
+
 SurdVector operator-(const SurdVector& u, const SurdVector& v) {
   return {u[0] - v[0], u[1] - v[1], u[2] - v[2]};
-}
-Ring dot(const RingVector& u, const RingVector& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-Surd dot(const SurdVector& u, const RingVector& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
 bool all_zero(const SurdVector& v, const Ring& d) {

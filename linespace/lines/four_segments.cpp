@@ -373,11 +373,6 @@ bool holds(const Element& e, const Homogeneous& p) {
   return a * b != Sign::Positive;
 }
 
-RingVector cross(const RingVector& u, const RingVector& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-          u[0] * v[1] - u[1] * v[0]};
-}
-
 // The common point of two different coplanar supports; nullopt when they are parallel.
 std::optional<Homogeneous> common_point(const LineThrough& l, const LineThrough& m) {
   const RingVector d = ring_difference(l.to, l.from);

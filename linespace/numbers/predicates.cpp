@@ -11,6 +11,7 @@
 
 #include "linespace/numbers/exact_numbers.h"
 #include "linespace/numbers/predicates.h"
+#include "linespace/numbers/vectors.h"
 
 namespace sightline {
 namespace internal {
@@ -25,17 +26,6 @@ using Vector = std::array<T, 3>;
 template <class T>
 auto operator-(const Vector<T>& p, const Vector<T>& q) {
   return Vector<T>{p[0] - q[0], p[1] - q[1], p[2] - q[2]};
-}
-
-template <class T>
-auto cross(const Vector<T>& u, const Vector<T>& v) {
-  return std::array{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                    u[0] * v[1] - u[1] * v[0]};
-}
-
-template <class S, class T>
-auto dot(const Vector<S>& u, const Vector<T>& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
 // Where a plane crosses the line from + s along: s = -at_from / along.

@@ -6,6 +6,8 @@
 #include <array>
 #include <boost/multiprecision/gmp.hpp>
 
+#include "linespace/numbers/vectors.h"
+
 namespace sightline::internal {
 
 /// Not CGAL::Exact_rational, which is another type where gmpxx is installed.
@@ -33,11 +35,10 @@ using ExactPoint = std::array<Rational, 3>;
   return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
 }
 [[nodiscard]] inline Rational exact_dot(const ExactPoint& u, const ExactPoint& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+  return dot(u, v);
 }
 [[nodiscard]] inline ExactPoint exact_cross(const ExactPoint& u, const ExactPoint& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-          u[0] * v[1] - u[1] * v[0]};
+  return cross(u, v);
 }
 /// det(b - a, c - a, d - a), whose sign orient3d gives.
 [[nodiscard]] inline Rational exact_orient(const ExactPoint& a, const ExactPoint& b,

@@ -11,6 +11,7 @@
 #include <array>
 #include <optional>
 
+#include "linespace/numbers/vectors.h"
 #include "linespace/predicates.h"
 
 namespace sightline::internal {
@@ -40,9 +41,17 @@ using SurdVector = std::array<Surd, 3>;
 [[nodiscard]] inline Surd operator*(const Surd& x, const Ring& y) {
   return {x.a * y, x.b * y};
 }
+[[nodiscard]] inline Surd operator*(const Ring& x, const Surd& y) { return y * x; }
 [[nodiscard]] inline Surd product(const Surd& x, const Surd& y, const Ring& d) {
   if (is_zero(x.b) && is_zero(y.b)) return {x.a * y.a, 0};
   return {x.a * y.a + x.b * y.b * d, x.a * y.b + x.b * y.a};
+}
+
+[[nodiscard]] inline SurdVector cross(const SurdVector& u, const SurdVector& v,
+                                      const Ring& d) {
+  return {product(u[1], v[2], d) - product(u[2], v[1], d),
+          product(u[2], v[0], d) - product(u[0], v[2], d),
+          product(u[0], v[1], d) - product(u[1], v[0], d)};
 }
 
 [[nodiscard]] Sign sign_of(const Surd& x, const Ring& d);

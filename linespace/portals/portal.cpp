@@ -22,14 +22,6 @@ bool all_zero(const RingVector& v) {
   return is_zero(v[0]) && is_zero(v[1]) && is_zero(v[2]);
 }
 
-SurdVector cross(const RingVector& u, const SurdVector& v) {
-  return {v[2] * u[1] - v[1] * u[2], v[0] * u[2] - v[2] * u[0],
-          v[1] * u[0] - v[0] * u[1]};
-}
-Surd dot(const SurdVector& u, const RingVector& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-}
-
 ExactLine line_from(const RingVector& d, const RingVector& m) {
   ExactLine::Coordinates c;
   Sign first = Sign::Zero;
@@ -318,14 +310,6 @@ bool precedes(const HomogeneousPoint& p, const HomogeneousPoint& q) {
     if (s != Sign::Zero) return s == Sign::Negative;
   }
   return false;
-}
-
-RingVector cross(const RingVector& u, const RingVector& v) {
-  return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-          u[0] * v[1] - u[1] * v[0]};
-}
-Ring dot(const RingVector& u, const RingVector& v) {
-  return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
 }
 
 Portal make_portal(std::span<const Point> given, int index) {

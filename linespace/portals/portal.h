@@ -24,9 +24,6 @@ struct HomogeneousPoint {
 /// Lexicographic order of coordinates.
 [[nodiscard]] bool precedes(const HomogeneousPoint& p, const HomogeneousPoint& q);
 
-[[nodiscard]] RingVector cross(const RingVector& u, const RingVector& v);
-[[nodiscard]] Ring dot(const RingVector& u, const RingVector& v);
-
 /// A portal with repeated and flat corners taken out.
 struct Portal {
   enum class Shape { Point, Slit, Polygon };

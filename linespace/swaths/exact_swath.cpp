@@ -5,14 +5,6 @@
 namespace sightline::internal {
 namespace {
 
-Ring dot(const RingVector& a, const RingVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-RingVector cross(const RingVector& a, const RingVector& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-          a[0] * b[1] - a[1] * b[0]};
-}
-
 WeightedPoint weighted(const Eigen::Vector3d& p) { return {ring_point(p), 1}; }
 
 // u p - v q.
