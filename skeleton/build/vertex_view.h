@@ -105,6 +105,12 @@ class VertexViewer {
   void drop_short_arcs(VertexView& out);
   void drop_arcs_off_source(VertexView& out);
   void view_ridge(int ridge, VertexView& out);
+  [[nodiscard]] bool may_see(const Ridge& r);
+  [[nodiscard]] std::vector<CutInterval> open_parts(Pair& pair);
+  void add_arcs(Pair& pair, std::span<const CutInterval> open, VertexView& out);
+  [[nodiscard]] std::uint32_t node_at(Pair& pair, const Cut& cut,
+                                      const std::array<bool, 2>& ends, bool mild,
+                                      VertexView& out) const;
   [[nodiscard]] Sign side_of(const Pair& pair, int corner);
   [[nodiscard]] bool on_one_side(const Pair& pair, int face);
   bool add_blockers(Pair& pair);
