@@ -204,14 +204,20 @@ using CornerTimes = std::function<Rational(const Corner&)>;
 Openings openings(int sense, const Ray& ray, const Rational& t,
                   std::span<const SectorAt> sectors, std::span<const Fin* const> fins,
                   const CornerTimes& corner_time, bool exact) {
-  // k must be less than the slopes to these corners, and greater than to those.
+  // 1. What bounds k: it must be less than the slopes to the corners in `less`, and
+  // greater than the slopes to those in `greater`.  A sector with the ray inside leaves
+  // no k at all.
   std::vector<const Corner*> less, greater;
   for (const SectorAt& s : sectors) {
     if (contains_inside(s, ray)) return {};
     if (same_direction(s.end->u, ray)) less.push_back(s.end);
     if (same_direction(s.start->u, ray)) greater.push_back(s.start);
   }
+  // Turning clockwise, w leaves the side that it would enter turning the other way.
   if (sense < 0) std::swap(less, greater);
+  // A fin that begins at t bounds k from above, one that ends at t from below; one that
+  // is up before and after leaves no k.  A fin that meets L in a corner is up in a wedge:
+  // between the slopes of its two sides.
   std::vector<const Fin*> wedges;
   for (const Fin* f : fins) {
     if (t < f->from || f->to < t) continue;
@@ -225,18 +231,22 @@ Openings openings(int sense, const Ray& ray, const Rational& t,
       return {};
     }
   }
+  // A corner in both leaves no k: two obstacles share the side to it.
   for (const Corner* c : less) {
     if (std::find(greater.begin(), greater.end(), c) != greater.end()) return {};
   }
+  // 2. Bounds on one side only leave some k, whatever the slopes are: no need of them.
   Openings out;
   out.bounded = !less.empty() || !greater.empty() || !wedges.empty();
   if (!exact && (less.empty() || greater.empty())) {
     out.intervals.emplace_back();
     return out;
   }
+  // Time per distance along the side from (t, L) to a corner on this ray.
   const auto slope = [&](const Corner* c) {
     return Rational(Rational(corner_time(*c) - t) / measure(c->u));
   };
+  // 3. The interval between all bounds.
   Opening all;
   for (const Corner* c : less) {
     const Rational s = slope(c);
@@ -247,17 +257,20 @@ Openings openings(int sense, const Ray& ray, const Rational& t,
     if (!all.low || s > *all.low) all.low = s;
   }
   if (all.low && all.high && *all.low >= *all.high) return {};
+  // 4. That interval without the wedges, from low to high: `all` is what is left of it.
   std::vector<std::pair<Rational, Rational>> closed;
   for (const Fin* f : wedges) {
     const Rational p = slope(f->from_side), q = slope(f->to_side);
     closed.emplace_back(std::min(p, q), std::max(p, q));
   }
   std::sort(closed.begin(), closed.end());
+  // What lies below a wedge is an interval of its own; then `all` begins above the wedge.
   for (const auto& [low, high] : closed) {
     if (all.high && low >= *all.high) break;
     if (!all.low || low > *all.low) out.intervals.push_back({all.low, low});
     if (!all.low || high > *all.low) all.low = high;
   }
+  // The last one, above all wedges, unless these reach up to its end.
   if (!all.high || !all.low || *all.low < *all.high) {
     out.intervals.push_back(std::move(all));
   }
@@ -294,6 +307,53 @@ bool crossable(const Ray& ray, std::span<const SectorAt> sectors, Order&& order)
     }
   }
   return true;
+}
+
+// The fins along each ray, for each direction that some fin has.
+std::vector<std::vector<const Fin*>> by_direction(std::span<const Fin> fins) {
+  std::vector<std::vector<const Fin*>> directions;
+  for (const Fin& f : fins) {
+    hear_stop();
+    const auto known = std::find_if(
+        directions.begin(), directions.end(),
+        [&](const auto& d) { return same_direction(*d.front()->ray, *f.ray); });
+    if (known == directions.end()) {
+      directions.push_back({&f});
+    } else {
+      known->push_back(&f);
+    }
+  }
+  return directions;
+}
+
+// Adds the instants at which one of the fins along a ray begins or ends; false: none of
+// them is up for any time.  Where one fin goes on as another, without a gap between them,
+// nothing happens.
+bool add_instants(std::span<const Fin* const> along, const CornerTimes& corner_time,
+                  std::vector<Rational>& instants) {
+  std::vector<Rational> ends;
+  for (const Fin* f : along) {
+    if (f->from == f->to) continue;
+    ends.push_back(f->from);
+    ends.push_back(f->to);
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+  for (const Rational& end : ends) {
+    bool before = false, after = false;
+    for (const Fin* f : along) {
+      hear_stop();
+      before |= f->from < end && end <= f->to;
+      after |= f->from <= end && end < f->to;
+    }
+    if (before && after &&
+        openings(1, *along.front()->ray, end, {}, along, corner_time, false)
+            .intervals.empty()) {
+      continue;
+    }
+    instants.push_back(end);
+  }
+  return !ends.empty();
 }
 
 // ---- Strict linear inequalities. ----
@@ -371,15 +431,20 @@ Row restricted(const Row& row, const Row& normal, int pivot, int dimension) {
 // order.  (R. Seidel, Small-dimensional linear programming and convex hulls made easy,
 // 1991; here without an objective.)
 bool positive_point(std::span<const Row> rows, int dimension, Row& c) {
+  // Without rows any point does; without unknowns no row can be positive.
   if (rows.empty()) {
     for (int i = 0; i < dimension; ++i) c.e[i] = Ring(1);
     c.round(dimension);
     return true;
   }
   if (dimension == 0) return false;
+  // Invariant: c is positive on the rows before n.
   c = rows[0];
   for (std::size_t n = 0; n < rows.size(); ++n) {
+    // Nearly always c is positive on row n already.
     if (dot_sign(rows[n], c, dimension) > 0) continue;
+    // 1. The same question for the rows before n on the hyperplane of row n.  A row of
+    // zeros is positive nowhere.
     const Row& normal = rows[n];
     const int pivot = pivot_of(normal, dimension);
     if (pivot < 0) return false;
@@ -390,7 +455,8 @@ bool positive_point(std::span<const Row> rows, int dimension, Row& c) {
     }
     Row inside;
     if (!positive_point(reduced, dimension - 1, inside)) return false;
-    // Back to all unknowns, times |normal[pivot]|.
+    // 2. Its answer in all unknowns, times |normal[pivot]| to stay without quotients: the
+    // pivot's unknown is the one that makes normal * on = 0.
     Row on;
     const bool negative = sign_of(normal.e[pivot]) < 0;
     const Ring size = negative ? Ring(-normal.e[pivot]) : normal.e[pivot];
@@ -402,8 +468,10 @@ bool positive_point(std::span<const Row> rows, int dimension, Row& c) {
       ++j;
     }
     on.e[pivot] = negative ? rest : Ring(-rest);
-    // Off the hyperplane, half as far as the rows before allow.
-    Ring height(0), loss(0);  // the smallest height / loss
+    // 3. Off the hyperplane, to row n's positive side: on + step * normal.  A row before,
+    // worth `up` at `on`, loses `-fall` per step, so that the step must stay below
+    // up / -fall; the smallest of these is height / loss, and half of it is taken.
+    Ring height(0), loss(0);
     for (std::size_t j = 0; j < n; ++j) {
       const Ring fall = exact_dot(rows[j], normal, dimension);
       if (sign_of(fall) >= 0) continue;
@@ -413,13 +481,17 @@ bool positive_point(std::span<const Row> rows, int dimension, Row& c) {
         loss = -fall;
       }
     }
+    // Where no row before loses anything, any step does.  The new point is the sum above
+    // times 2 loss, which is positive.
     if (sign_of(loss) == 0) height = loss = Ring(1);
     const Ring twice = loss + loss;
     for (int i = 0; i < dimension; ++i) {
       c.e[i] = Ring(twice * on.e[i]) + Ring(height * normal.e[i]);
     }
     c.round(dimension);
-    // Shorter numbers, where they do as well.
+    // 4. Rounded to doubles the numbers are shorter, and all that follows is cheaper:
+    // kept where the rounded point is positive on all rows so far, too.
+    // NaN stands for numbers beyond the range of doubles.
     Row rounded;
     rounded.r = c.r;
     if (!std::isnan(c.r[0])) {
@@ -861,6 +933,15 @@ struct LineScan::Impl {
   [[nodiscard]] int compare_slopes(const Corner& p, const Corner& q, int position) const;
   void add_fins(const Hit& hit, const Rational* lo, const Rational* hi,
                 std::vector<Fin>& fins) const;
+  [[nodiscard]] std::span<const Hit> hits_of(int contact) const {
+    return {hits.data() + first_hit[contact], hits.data() + first_hit[contact + 1]};
+  }
+  // The order of the slopes of two sides that begin at a position.
+  [[nodiscard]] auto slope_order(int position) const {
+    return [this, position](const Corner& p, const Corner& q) {
+      return compare_slopes(p, q, position);
+    };
+  }
   bool judge(int contact, const Rational* lo, const Rational* hi,
              const std::function<bool(int)>* solid_behind = nullptr) const;
 
@@ -875,6 +956,19 @@ struct LineScan::Impl {
   void add_material(int contact, const Rational& t,
                     const std::function<bool(int)>& solid_behind,
                     std::vector<Material>& out) const;
+
+  // The sectors of a contact, in order along L, and the position of each.
+  struct Sectors {
+    std::vector<SectorAt> sectors;
+    std::vector<int> at;
+  };
+  void add_sector(int position, const Corner* start, const Corner* end,
+                  Sectors& out) const;
+  [[nodiscard]] bool add_sectors(int contact, const Rational* lo, const Rational* hi,
+                                 std::span<const Material> material, Sectors& out) const;
+  [[nodiscard]] bool block_at_once(std::span<const SectorAt> now, int position) const;
+  void add_rays(std::span<const SectorAt> now, int position,
+                std::vector<const Ray*>& rays) const;
 };
 
 void LineScan::Impl::set_line(const Point& a, const Point& b) {
@@ -1124,12 +1218,15 @@ bool LineScan::Impl::is_diagonal(int face, int side) const {
 }
 
 void LineScan::Impl::meet(int face) {
+  // 1. In doubles: most faces are missed for certain.
   const auto points = scene->face_points(face);
   if (!first_stage(points)) return;
   const int n = static_cast<int>(points.size());
   const auto next = [n](int i) { return i + 1 == n ? 0 : i + 1; };
   const auto previous = [n](int i) { return i == 0 ? n - 1 : i - 1; };
 
+  // Exact corners are made when they are first needed: ids[i] is -1 until then.  Faces
+  // have few corners nearly always: no allocation for them.
   std::array<int, 8> few;
   std::vector<int> many;
   if (n > 8) many.resize(n);
@@ -1139,7 +1236,8 @@ void LineScan::Impl::meet(int face) {
     if (ids[i] < 0) ids[i] = corner(points[i]);
     return ids[i];
   };
-  // Complete the signs; the certain ones stay.
+  // 2. Complete the signs of the turns from corner to corner around L; the certain ones
+  // stay.  L misses a face with sides on both hands of it.
   bool left = false, right = false, zero = false;
   for (int i = 0; i < n; ++i) {
     if (signs[i] == 0) {
@@ -1156,15 +1254,20 @@ void LineScan::Impl::meet(int face) {
           .obstacle = Obstacle::Full,
           .from = -1,
           .to = -1};
+  // 3. No turn at all: L and the face are in one plane, and may share a whole segment.
   if (!left && !right) {
     for (int i = 0; i < n; ++i) id(i);
     return meet_in_plane(face, ids);
   }
+  // 4. All sides turn one way: L crosses the face inside, and no line near L misses it.
   if (!zero) {
     hit.from = hit.to = plane_position(points);
     hits.push_back(hit);
     return;
   }
+  // 5. L passes a corner: the face is there a sector between its two sides, taken
+  // counter-clockwise as they appear along L.  The face's own sense tells which side is
+  // first: it is `left` where the face appears counter-clockwise itself.
   for (int i = 0; i < n; ++i) {
     if (signs[i] != 0 || !corners[id(i)].u.zero()) continue;
     hit.kind = TouchKind::Corner;
@@ -1176,6 +1279,8 @@ void LineScan::Impl::meet(int face) {
     hits.push_back(hit);
     return;
   }
+  // 6. L passes the inside of a side: the face is a half-plane.  The two corners then lie
+  // on opposite sides of L.  A cut inside a polygon of the file is as good as its inside.
   for (int i = 0; i < n; ++i) {
     if (signs[i] != 0) continue;
     const int p = id(i), q = id(next(i));
@@ -1191,6 +1296,7 @@ void LineScan::Impl::meet(int face) {
     hits.push_back(hit);
     return;
   }
+  // Not reached: with one sign zero and no two opposite, L meets a side or a corner.
   assert(false && "L meets the boundary of the face");
 }
 
@@ -1324,6 +1430,8 @@ void LineScan::Impl::add_fins(const Hit& hit, const Rational* lo, const Rational
 void LineScan::Impl::add_material(int contact, const Rational& at,
                                   const std::function<bool(int)>& solid_behind,
                                   std::vector<Material>& out) const {
+  // 1. Across L each face is one leaf, or two opposite ones where L runs through its
+  // inside.  Faces in one direction share a leaf.
   struct Leaf {
     Corner corner;
     bool after = false, before = false;  // material counter-clockwise, clockwise of it
@@ -1340,9 +1448,12 @@ void LineScan::Impl::add_material(int contact, const Rational& at,
   };
   bool any = false;
   for (int h = first_hit[contact]; h < first_hit[contact + 1]; ++h) {
+    // Faces that L leaves before `at`, or meets only after it, are no leaves there.
     const Hit& hit = hits[h];
     if (hit.obstacle != Obstacle::Barrier || t(hit.from) >= at || t(hit.to) <= at)
       continue;
+    // On which hand of its leaf the face has its material: a point w off the face's plane
+    // tells the hand that the plane's back is on.
     const bool solid = solid_behind(hit.face);
     any |= solid;
     const auto points = scene->face_points(hit.face);
@@ -1354,6 +1465,8 @@ void LineScan::Impl::add_material(int contact, const Rational& at,
     const int turn = cross(reference.u, seen(-1, w).u);  // w's plane is not L's: not 0
     const bool after = solid && (turn > 0) == behind;
     const bool before = solid && !after;
+    // Which of the two opposite leaves the face has: by the sides of L its corners are
+    // on.  At the opposite leaf the hands are exchanged.
     bool ahead = false, back = false;
     for (std::size_t i = 0; i < points.size(); ++i) {
       const int side = dot(corners[loops[hit.loop + i]].u, reference.u);
@@ -1363,7 +1476,9 @@ void LineScan::Impl::add_material(int contact, const Rational& at,
     if (ahead) add(reference, after, before);
     if (back) add(opposite(reference), before, after);
   }
+  // Sheets alone enclose no material.
   if (!any) return;
+  // 2. The leaves in counter-clockwise order cut the plane across L into cells.
   std::sort(leaves.begin() + 1, leaves.end(), [&](const Leaf& p, const Leaf& q) {
     // By the turn from the first leaf: its half turn, its opposite, the other half.
     const auto half = [&](const Leaf& l) {
@@ -1373,6 +1488,9 @@ void LineScan::Impl::add_material(int contact, const Rational& at,
     const int a = half(p), b = half(q);
     return a != b ? a < b : cross(p.corner.u, q.corner.u) > 0;
   });
+  // 3. A cell is material when the leaf before or after it says so.  An obstacle is at
+  // most a half turn, so that a cell of more is two.
+  // Positions are kept without `scale`, as those of all hits.
   const Rational x = at / rational(scale);
   const int position = add_position(ring(mpq_numref(x.backend().data())),
                                     ring(mpq_denref(x.backend().data())));
@@ -1417,125 +1535,121 @@ std::vector<LineScan::Impl::Material> LineScan::Impl::material_at_ends(
   return out;
 }
 
-bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi,
-                           const std::function<bool(int)>* solid_behind) const {
-  const std::span<const Hit> mine(hits.begin() + first_hit[contact],
-                                  hits.begin() + first_hit[contact + 1]);
+// Adds a sector at a position at or beyond those of the sectors before.
+void LineScan::Impl::add_sector(int position, const Corner* start, const Corner* end,
+                                Sectors& out) const {
+  const bool later = !out.at.empty() && compare(out.at.back(), position) != 0;
+  const int instant = out.at.empty() ? 0 : out.sectors.back().instant + (later ? 1 : 0);
+  out.sectors.push_back({instant, start, end});
+  out.at.push_back(position);
+}
+
+// The sectors at which the faces of the contact are crossed strictly between lo and hi,
+// and those of the material just after lo and just before hi, in order.  False: a face is
+// crossed in its inside, so that the contact blocks.
+bool LineScan::Impl::add_sectors(int contact, const Rational* lo, const Rational* hi,
+                                 std::span<const Material> material, Sectors& out) const {
   const auto inside = [&](int position) {
     return (lo == nullptr || t(position) > *lo) && (hi == nullptr || t(position) < *hi);
   };
-  std::vector<SectorAt> sectors;
-  std::vector<int> at;  // position of each sector
-  const auto add = [&](int position, const Corner* start, const Corner* end) {
-    const int instant =
-        at.empty() ? 0
-                   : sectors.back().instant + (compare(at.back(), position) != 0 ? 1 : 0);
-    sectors.push_back({instant, start, end});
-    at.push_back(position);
+  const auto is_first = [&](const Material& m) {
+    return m.position == material.front().position;
   };
-  const std::vector<Material> material =
-      solid_behind != nullptr ? material_at_ends(contact, *lo, *hi, *solid_behind)
-                              : std::vector<Material>{};
-  const auto add_material_at = [&](auto&& chosen) {
-    for (const Material& m : material) {
-      if (chosen(m.position)) add(m.position, &m.start, &m.end);
-    }
-  };
-  const auto is_first = [&](int p) { return p == material.front().position; };
-  add_material_at(is_first);
-  for (const Hit& h : mine) {
+  for (const Material& m : material) {
+    if (is_first(m)) add_sector(m.position, &m.start, &m.end, out);
+  }
+  for (const Hit& h : hits_of(contact)) {
     hear_stop();
     if (h.obstacle != Obstacle::Full && h.obstacle != Obstacle::Sector) continue;
     if (!inside(h.from)) continue;
-    if (h.obstacle == Obstacle::Full) return true;
-    add(h.from, &corners[h.start], &corners[h.end]);
+    if (h.obstacle == Obstacle::Full) return false;
+    add_sector(h.from, &corners[h.start], &corners[h.end], out);
   }
-  add_material_at([&](int p) { return !is_first(p); });
-  // A constant w is free, or else no w is at one instant.
+  for (const Material& m : material) {
+    if (!is_first(m)) add_sector(m.position, &m.start, &m.end, out);
+  }
+  return true;
+}
+
+// The sectors of one instant, which is at this position, leave no way: not a direction is
+// free, and no ray can be crossed just then.
+bool LineScan::Impl::block_at_once(std::span<const SectorAt> now, int position) const {
+  if (sealed(now)) return true;
+  return covers(now) && std::none_of(now.begin(), now.end(), [&](const SectorAt& s) {
+           return crossable(s.end->u, now, slope_order(position));
+         });
+}
+
+// Adds the sides of the sectors of one instant, each direction once.  Rays inside of the
+// union of the sectors do not matter.
+void LineScan::Impl::add_rays(std::span<const SectorAt> now, int position,
+                              std::vector<const Ray*>& rays) const {
+  const auto matters = [&](const Ray& r) {
+    const auto contains = [&](auto&& side) {
+      return std::any_of(now.begin(), now.end(),
+                         [&](const SectorAt& s) { return side(s, r); });
+    };
+    return !contains(contains_after) || !contains(contains_before) ||
+           crossable(r, now, slope_order(position));
+  };
+  for (const SectorAt& s : now) {
+    for (const Corner* c : {s.start, s.end}) {
+      hear_stop();
+      if (std::none_of(rays.begin(), rays.end(),
+                       [&](const Ray* r) { return same_direction(*r, c->u); }) &&
+          matters(c->u)) {
+        rays.push_back(&c->u);
+      }
+    }
+  }
+}
+
+// Whether the contact blocks the part of the line from lo to hi, or all of it.  First it
+// looks for a line at rest, then for an instant at which nothing passes, and only then
+// for a motion.
+bool LineScan::Impl::judge(int contact, const Rational* lo, const Rational* hi,
+                           const std::function<bool(int)>* solid_behind) const {
+  // A part of the line that begins or ends along a wall has the wall's material in the
+  // way of those nearby lines that are within it there.
+  const std::vector<Material> material =
+      solid_behind != nullptr ? material_at_ends(contact, *lo, *hi, *solid_behind)
+                              : std::vector<Material>{};
+  // 1. The faces that are crossed: sectors, in order along the line.  One that is crossed
+  // in its inside is met by every line nearby.
+  Sectors crossed;
+  if (!add_sectors(contact, lo, hi, material, crossed)) return true;
+  auto& [sectors, at] = crossed;
+  // 2. A direction that no sector covers: the line moved off that way, parallel to
+  // itself, is free.  Barriers do not stop it, since it crosses none.
   if (!covers(sectors)) return false;
-  const CornerTimes corner_time = [&](const Corner& c) { return corner_t(c); };
+  // 3. Instant by instant: whether the sectors of one instant alone block everything.  If
+  // not, a motion may pass between their sides.
   std::vector<const Ray*> rays;
   for (std::size_t first = 0, last; first < sectors.size(); first = last) {
     for (last = first; last < sectors.size(); ++last) {
       if (sectors[last].instant != sectors[first].instant) break;
     }
     const auto now = std::span(sectors).subspan(first, last - first);
-    if (sealed(now)) return true;
-    const auto order = [&](const Corner& p, const Corner& q) {
-      return compare_slopes(p, q, at[first]);
-    };
-    if (covers(now) && std::none_of(now.begin(), now.end(), [&](const SectorAt& s) {
-          return crossable(s.end->u, now, order);
-        })) {
-      return true;
-    }
-    // Rays inside of the union of the sectors do not matter.
-    const auto matters = [&](const Ray& r) {
-      const auto contains = [&](auto&& side) {
-        return std::any_of(now.begin(), now.end(),
-                           [&](const SectorAt& s) { return side(s, r); });
-      };
-      return !contains(contains_after) || !contains(contains_before) ||
-             crossable(r, now, order);
-    };
-    for (const SectorAt& s : now) {
-      for (const Corner* c : {s.start, s.end}) {
-        hear_stop();
-        if (std::none_of(rays.begin(), rays.end(),
-                         [&](const Ray* r) { return same_direction(*r, c->u); }) &&
-            matters(c->u)) {
-          rays.push_back(&c->u);
-        }
-      }
-    }
+    if (block_at_once(now, at[first])) return true;
+    add_rays(now, at[first], rays);
   }
 
+  // 4. The faces in a plane with the line are barriers while they last: their beginnings
+  // and ends are instants, too.
   std::vector<Fin> fins;
-  for (const Hit& h : mine) {
+  for (const Hit& h : hits_of(contact)) {
     hear_stop();
     if (h.loop >= 0) add_fins(h, lo, hi, fins);
   }
-  std::vector<std::vector<const Fin*>> directions;
-  for (const Fin& f : fins) {
-    hear_stop();
-    const auto known = std::find_if(
-        directions.begin(), directions.end(),
-        [&](const auto& d) { return same_direction(*d.front()->ray, *f.ray); });
-    if (known == directions.end()) {
-      directions.push_back({&f});
-    } else {
-      known->push_back(&f);
-    }
-  }
+  const auto directions = by_direction(fins);
+  // Rays along which something is up for a while matter, like the sides of sectors.
+  const CornerTimes corner_time = [&](const Corner& c) { return corner_t(c); };
   std::vector<Rational> instants;
   for (const int position : at) instants.push_back(t(position));
   for (const auto& along : directions) {
-    std::vector<Rational> ends;
-    for (const Fin* f : along) {
-      if (f->from == f->to) continue;
-      ends.push_back(f->from);
-      ends.push_back(f->to);
-    }
-    if (ends.empty()) continue;
-    rays.push_back(along.front()->ray);
-    std::sort(ends.begin(), ends.end());
-    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
-    // Where one fin goes on as another, without a gap between them, nothing happens.
-    for (const Rational& end : ends) {
-      bool before = false, after = false;
-      for (const Fin* f : along) {
-        hear_stop();
-        before |= f->from < end && end <= f->to;
-        after |= f->from <= end && end < f->to;
-      }
-      if (before && after &&
-          openings(1, *along.front()->ray, end, {}, along, corner_time, false)
-              .intervals.empty()) {
-        continue;
-      }
-      instants.push_back(end);
-    }
+    if (add_instants(along, corner_time, instants)) rays.push_back(along.front()->ray);
   }
+  // 5. Number the instants of both kinds in one order, and search for a motion.
   std::sort(instants.begin(), instants.end());
   instants.erase(std::unique(instants.begin(), instants.end()), instants.end());
   for (std::size_t i = 0; i < sectors.size(); ++i) {
