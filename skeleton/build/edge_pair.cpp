@@ -147,18 +147,25 @@ PairCells::Linear on_edge(const PlaneValues& v) {
 bool EdgePairs::gather(const Outer& outer) {
   const Ridge& first = g_.ridges()[outer.first];
   const Ridge& last = g_.ridges()[outer.last];
+  // With a new stamp all that is kept by face, point, ridge or carrier is out of date.
   ++pair_stamp_;
   const Point& p0 = view_.end(0);
   const Point& p1 = view_.end(1);
   const Point& q0 = scene_.point(last.points[0]);
   const Point& q1 = scene_.point(last.points[1]);
+  // 1. A part through a group, with neither edge on it: some line between the two must
+  // come near the group.
   const bool outer_through =
       selection_.goes_through(outer.first) || selection_.goes_through(outer.last);
   if (!outer_through && !Shaft(p0, p1, q0, q1).may_meet(selection_.through_box) &&
       !selection_.may_reach(view_.box(), box_of(std::array<Point, 2>{q0, q1}))) {
     return false;
   }
+  // 2. The faces that may meet a segment between the edges, and the parts of the first
+  // edge: from some of them one face is known to hide all of the last edge.
   if (!view_.look(open_, q0, q1, first_parts_, faces_)) return false;
+  // 3. The square of the two edges' parameters is divided into cells; a cell that one
+  // face hides, or where an edge is not grazed, has no line.
   cells_.begin({{on_edge(outer.first_planes[0]), on_edge(outer.first_planes[1])},
                 touched_on(first),
                 (p1 - p0).norm(),
@@ -167,12 +174,15 @@ bool EdgePairs::gather(const Outer& outer) {
                 touched_on(last),
                 (q1 - q0).norm(),
                 visible_range(last.buried)});
+  // Faces at the outer edges themselves are not met by lines that support there.
   others_.clear();
   for (const int face : faces_) {
     if (is_of(first, face) || is_of(last, face)) continue;
     others_.push_back(face);
     add_to_cells(outer, face);
   }
+  // 4. Sides of faces that cross a cell which stays open are middle edges, if they may be
+  // any: asked of many cells, answered once for a pair.
   const std::function<bool(int)> is_middle = [&](int m) {
     if (middle_stamp_[m] != pair_stamp_) {
       middle_stamp_[m] = pair_stamp_;
@@ -180,6 +190,8 @@ bool EdgePairs::gather(const Outer& outer) {
     }
     return middle_allowed_[m] != 0;
   };
+  // 5. Each part is divided into cells on its own.  That one face hides a part is
+  // remembered: of other edges near the last one it is likely to hide them, too.
   for (std::size_t k = 0; k < first_parts_.size(); ++k) {
     const EdgeView::Part& part = first_parts_[k];
     if (part.hidden_by >= 0) {
@@ -189,6 +201,7 @@ bool EdgePairs::gather(const Outer& outer) {
     const int hidden_by = cells_.divide(part.from, part.to, is_middle);
     if (hidden_by >= 0) view_.remember(k, hidden_by);
   }
+  // Where no middle edge crosses an open cell, no line meets three edges.
   cells_.finish();
   return !cells_.middles().empty();
 }
@@ -468,11 +481,14 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
                                const EeeCurve& curve, bool& degenerate) {
   stretches_.clear();
   constraints_.clear();
+  // 1. The ten conditions that a line of the curve must fulfil.  Each is a sign of a
+  // polynomial that is linear in s, so that it changes once at most.
   if (!constrain_to_square(outer, curve)) return;
   if (!constrain_at_middle(outer, middle, degenerate)) return;
   if (!constrain_at_last(outer, degenerate)) return;
   constrain_at_first(outer, curve, degenerate);
-  // From one cut to the next all signs stay: `sign` holds them along the stretch at hand.
+  // 2. Those that change, in the order of their cuts along the curve; the others have
+  // their sign everywhere.
   std::array<const Constraint*, 10> order;
   int count = 0;
   for (const Constraint& c : constraints_) {
@@ -482,31 +498,41 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
             [&](const Constraint* x, const Constraint* y) {
               return curve.compare(x->cut, y->cut) == Sign::Negative;
             });
+  // 3. All signs at the curve's start; from one cut to the next they stay.
   std::array<Sign, 10> sign;
   for (int k = 0; k < 10; ++k) sign[k] = constraints_[k].values.sign0;
   const Ridge& first = g_.ridges()[outer.first];
   const Ridge& last = g_.ridges()[outer.last];
   const auto& o = outer.points;
   const Carrier& carrier = carriers_.all[curve.middle()];
+  // The middle contact lies between the outer ones, not beyond one of them, iff F0 has
+  // the sign of orient3d(Q0, Q1, middle edge): see EeeCurve::order_at().
   const Sign beside = orient3d(o.at(o.q[0]), o.at(o.q[1]), o.at(carrier.points[0]),
                                o.at(carrier.points[1]));
+  // A zero all along is in the plane of a face: left to the contacts of single lines.
   const auto differ = [](Sign x, Sign y) { return x != y || x == Sign::Zero; };
+  // 4. Along the curve: a stretch wherever all ten are right, and the two cuts differ.
   CurveCut from = curve_start();
   for (int k = 0; k <= count; ++k) {
     const CurveCut to = k < count ? order[k]->cut : curve_end();
     const auto at_first = [&](int c) {
       return constraints_[c].times_f0 ? sign[c] * sign[0] : sign[c];
     };
+    // The outer edges may be end contacts, too; the middle one must be grazed.
     const EdgeContact last_contact = last.contact(sign[6], sign[7]);
     const EdgeContact first_contact = first.contact(at_first(8), at_first(9));
+    // Opposite signs: of F0 and F1, of the middle edge's ends, of the planes at that
+    // edge.
     if (sign[0] != sign[1] && sign[2] != sign[3] && differ(sign[4], sign[5]) &&
         last_contact != EdgeContact::None && first_contact != EdgeContact::None &&
         sign[0] == beside && curve.compare(from, to) == Sign::Negative) {
+      // The sign of F0 goes with it: that of F0 - F1, which blockers are asked by.
       stretches_.push_back(
           {{from, to},
            sign[0],
            {first_contact == EdgeContact::End, last_contact == EdgeContact::End}});
     }
+    // Beyond the cut one sign has changed.
     if (k == count) break;
     const auto c = static_cast<std::size_t>(order[k] - constraints_.data());
     sign[c] = constraints_[c].values.sign1;

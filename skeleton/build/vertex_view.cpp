@@ -291,6 +291,8 @@ void VertexViewer::drop_arcs_off_source(VertexView& out) {
 
 // Finds all arcs of the viewpoint with one ridge.
 void VertexViewer::view_ridge(int ridge, VertexView& out) {
+  // 1. What is not asked for.  Where only lines from a source are, they lie in the wedge
+  // of the viewpoint and the edge, beyond either.
   if (!part_.has(ridge, wanted_)) return;
   const Ridge& r = g_.ridges()[ridge];
   if (part_.by_lines && !part_.on_source(star_id_, ridge)) {
@@ -299,12 +301,15 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
       return;
     }
   }
+  // 2. What is no silhouette from here, by the sides of its two faces' planes that the
+  // viewpoint is on; then what is hidden as a whole.
   if (r.points[0] == point_ || r.points[1] == point_) return;
   const Sign a = r.a(at_);
   const Sign b = r.b(at_);
   const EdgeContact contact = r.contact(a, b);
   if (contact == EdgeContact::None || !may_see(r)) return;
 
+  // 3. The pair: both ends of the edge are known to lie in its plane.
   hear_stop_now();
   lists_->clear();
   ++pair_;
@@ -322,6 +327,9 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   for (const Edge::Side& side : pair.edge->sides) {
     pair.lists.edge_facets.push_back(scene_.faces()[side.face].facet);
   }
+  // 4. What is known of it at once.  A viewpoint in the plane of a face at the edge
+  // leaves only the contacts at the ends of arcs to be listed (mild); other solids at the
+  // edge, or a viewpoint inside of a face, may change all of an arc (degenerate).
   pair.mild = a == Sign::Zero || b == Sign::Zero;
   pair.degenerate =
       r.touched_along() || (r.touched && g_.polygon()) || star_->in_plane_only;
@@ -329,11 +337,15 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   pair.share_facet = g_.polygon() && share(r.all_facets, star_->facets);
   // Those that end there are left out.
   if (pair.share_facet && ((pair.edge_ends && !r.any_side) || !r.can_graze())) return;
+  // 5. The parts of the edge that are seen.  Whether signs alone tell their ends shows
+  // only now: where other faces pierce the edge inside a part, or touch the pair's plane
+  // from both sides, they do not.
   auto open = open_parts(pair);
   if (open.empty()) return;
   if (pierced_inside(pair, open) || changes_at_turn(pair, open)) pair.degenerate = true;
   if (pair.mild || pair.degenerate) list_faces(pair);
   pair.degenerate = pair.degenerate || (pair.mild && touching_across(pair));
+  // 6. The arcs: by single exact lines, or as the cuts tell.
   if (pair.degenerate) {
     add_degenerate_pair(g_, *star_, r, pair.plane, pair.closed, pair.lists.ending,
                         pair.lists.faces, out);
@@ -536,7 +548,11 @@ std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut&
                         std::span<const std::int32_t> b) {
     return a.size() == 1 && b.size() == 1 && a[0] == b[0];
   };
+  // `self`: two of the line's contacts are on one object, and on no other.
   const bool arc_self = alone(own_objects_, pair.r->objects);
+  // VV: the arc ends in an end of the edge.  Each of the two corners is grazed or, in
+  // polygon mode, an end contact; a line in the plane of a face at one is left to
+  // contact_node().
   if (cut.kind == CutKind::Start || cut.kind == CutKind::End) {
     const int far = pair.r->points[cut.kind == CutKind::End];
     const Star& star = g_.stars()[g_.star_of_point(far)];
@@ -553,8 +569,10 @@ std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut&
                         {at_, scene_.point(far)},
                         g_.polygon() ? blocked : std::array<bool, 2>{});
   }
+  // Other ends are inside the edge: what cuts it there is the third generator.
   const Point hit = pair.e0 + cut.parameter() * (pair.e1 - pair.e0);
   switch (cut.kind) {
+    // VEE: the line grazes a blocker's side on its way.
     case CutKind::Side: {
       const Generator side = g_.named(cut.feature);
       const Generator generators[] = {vertex, side, edge};
@@ -569,11 +587,13 @@ std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut&
       return out.add_node(NodeKind::FvE, arc_self, false, generators, {at_, hit},
                           {false, ends[1]});
     }
+    // Two edges of the viewpoint's own corner line up: nothing else is met.
     case CutKind::Saddle: {
       const Generator generators[] = {vertex, edge};
       return out.add_node(NodeKind::Saddle, arc_self, false, generators, {at_, hit},
                           ends);
     }
+    // The edge enters a face there.
     default: {
       const Generator generators[] = {vertex, {GeneratorKind::Face, cut.feature}, edge};
       return out.add_node(NodeKind::Pierce, arc_self, false, generators, {at_, hit},
