@@ -291,6 +291,7 @@ void Scan::meet(int face) {
     zero |= signs[i] == 0;
     if (left && right) return;
   }
+  // As if L crossed the inside; what is different at the boundary is set below.
   Hit hit{.face = face,
           .kind = TouchKind::Interior,
           .obstacle = Obstacle::Full,

@@ -170,6 +170,7 @@ void SceneBuilder::make_objects() {
   for (std::size_t f = 0; f < group_of.size(); ++f) {
     faces[group_of[f]].push_back(static_cast<int>(f));
   }
+  // Faces and object know each other; the name leads to the object, for those who ask.
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (faces[i].empty()) continue;
     const int object = static_cast<int>(scene.objects_.size());

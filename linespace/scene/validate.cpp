@@ -145,6 +145,7 @@ void SceneBuilder::check_duplicates() {
       points_of(polygons[i].first, polygons[i].last);
       ids_of_first = ids;
       points_of(polygons[j].first, polygons[j].last);
+      // Different polygons of one hash.
       if (ids != ids_of_first) continue;
       pairs.emplace_back(static_cast<int>(i), static_cast<int>(j));
       break;  // the next copy is reported with this one

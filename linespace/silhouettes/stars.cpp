@@ -145,6 +145,7 @@ Star Silhouettes::star_of(int p) const {
     }
   }
   sort_unique(star.facets);
+  // A facet may have several faces here: each of them is own, or none.
   const auto is_own = [&](int f) {
     return std::binary_search(star.facets.begin(), star.facets.end(), s.faces()[f].facet);
   };
@@ -155,6 +156,8 @@ Star Silhouettes::star_of(int p) const {
   face_tree_.traverse([&](const Box& other) { return boxes_meet(box, other); },
                       [&](std::uint32_t item) {
                         const int f = static_cast<int>(item);
+                        // Faces with the point for a vertex are known; others must
+                        // have it in their plane, and not outside of their sides.
                         if (has_point(s, f, p) || face_planes_[f](at) != Sign::Zero)
                           return;
                         if (locate_in_plane(s, f, at) != PointInFace::Outside)
@@ -169,6 +172,7 @@ Star Silhouettes::star_of(int p) const {
     if (!is_own(f)) foreign.push_back(s.faces()[f].facet);
   }
   sort_unique(foreign);
+  // One face of such a facet is kept, for its plane.
   for (const int facet : foreign) {
     if (!inside_facet(p, facet, star.faces)) continue;
     star.in_plane_only = true;

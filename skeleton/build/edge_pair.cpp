@@ -532,7 +532,8 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
            sign[0],
            {first_contact == EdgeContact::End, last_contact == EdgeContact::End}});
     }
-    // Beyond the cut one sign has changed.
+    // Beyond the cut one sign has changed.  Cuts that coincide change one after the
+    // other, with an empty stretch between.
     if (k == count) break;
     const auto c = static_cast<std::size_t>(order[k] - constraints_.data());
     sign[c] = constraints_[c].values.sign1;

@@ -572,7 +572,8 @@ std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut&
   // Other ends are inside the edge: what cuts it there is the third generator.
   const Point hit = pair.e0 + cut.parameter() * (pair.e1 - pair.e0);
   switch (cut.kind) {
-    // VEE: the line grazes a blocker's side on its way.
+    // VEE: the line grazes a blocker's side on its way.  The side may be an edge of the
+    // viewpoint's own object, or of the far edge's: then the event is of one object.
     case CutKind::Side: {
       const Generator side = g_.named(cut.feature);
       const Generator generators[] = {vertex, side, edge};
@@ -581,6 +582,7 @@ std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut&
           arc_self || alone(own_objects_, objects) || alone(objects, pair.r->objects);
       return out.add_node(NodeKind::VEE, self, false, generators, {at_, hit}, ends);
     }
+    // FvE: beyond the plane of a face here the viewpoint does not support any more.
     case CutKind::Support: {
       const Generator generators[] = {vertex, {GeneratorKind::Face, cut.feature}, edge};
       // In the plane of a face at the viewpoint: grazed there.
@@ -593,7 +595,7 @@ std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut&
       return out.add_node(NodeKind::Saddle, arc_self, false, generators, {at_, hit},
                           ends);
     }
-    // The edge enters a face there.
+    // Pierce: the edge enters a face there, so that what is beyond is hidden.
     default: {
       const Generator generators[] = {vertex, {GeneratorKind::Face, cut.feature}, edge};
       return out.add_node(NodeKind::Pierce, arc_self, false, generators, {at_, hit},

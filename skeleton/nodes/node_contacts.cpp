@@ -91,6 +91,7 @@ std::vector<Generator> generators_of(const Silhouettes& g, const LineScan& scan,
                                 scene.faces()[s.face].facet);
     });
   });
+  // 5. The facets come last and the list is sorted: equal contacts have equal lists.
   for (const int f : facets) found.push_back({GeneratorKind::Face, f});
   sort_unique(found);
   return found;

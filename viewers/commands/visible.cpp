@@ -240,7 +240,8 @@ void write_witnesses(const VisibleOptions& options, const Scene& scene,
 
 ExitStatus run_groups(Session& session, const VisibleOptions& options) {
   if (options.method == "sampled") return run_sampled(session, options);
-  // 1. Outputs first: one that cannot be written fails before the work.
+  // 1. Outputs first: one that cannot be written fails before the work.  Then the faces
+  // of the two groups: all polygons that a name, or #i-j, tells.
   Outputs outputs(options);
   const Meter meter;
   const Scene scene = read_scene(session, options.scene, options.format);
@@ -291,6 +292,7 @@ ExitStatus run_groups(Session& session, const VisibleOptions& options) {
       write_witnesses(options, scene, group, request);
     });
   }
+  // A partial answer is written, too: what it proves holds.
   answer["complete"] = complete && session.unwritten().empty();
   outputs.write_answer(answer);
   // 5. The same in a few lines for people, unless the JSON goes to the terminal.
