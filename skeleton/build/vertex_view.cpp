@@ -11,6 +11,7 @@
 #include "linespace/space/opposite_edges.h"
 #include "linespace/work/stop_scope.h"
 #include "skeleton/build/degenerate_pair.h"
+#include "skeleton/build/further_contacts.h"
 #include "skeleton/build/vertex_pair.h"
 #include "skeleton/nodes/node_contacts.h"
 
