@@ -73,9 +73,13 @@ Sign order(const Parameter& p, const Parameter& q) {
 std::vector<Arc> arcs_of(
     const std::function<std::optional<ExactLine>(const Parameter&)>& line,
     std::vector<Parameter> breaks, const Parameter* mark, Elements elements) {
+  // 1. The breaks, with the mark as one more; where there are few, fixed places beside.
+  // (0, 0) is no place.
   if (mark != nullptr) breaks.push_back(*mark);
   std::erase_if(breaks, is_null);
   if (breaks.size() < 3) breaks.insert(breaks.end(), {{1, 0}, {0, 1}, {1, 1}});
+  // 2. A parameter p and -p are the same line: take those of the upper half-plane, where
+  // the sign of a determinant orders them around the circle.
   for (Parameter& p : breaks) {
     const Sign s = sign_of(p[1]);
     if (s == Sign::Negative || (s == Sign::Zero && sign_of(p[0]) == Sign::Negative)) {
@@ -85,11 +89,14 @@ std::vector<Arc> arcs_of(
   std::ranges::sort(breaks, [](const Parameter& p, const Parameter& q) {
     return order(p, q) == Sign::Positive;
   });
+  // Equal places are one break.
   const auto repeats =
       std::unique(breaks.begin(), breaks.end(),
                   [](const auto& p, const auto& q) { return order(p, q) == Sign::Zero; });
   breaks.erase(repeats, breaks.end());
-  // Cells: break 0, the gap behind it, break 1, ...
+  // 3. Cells: break 0, the gap behind it, break 1, ...  One line speaks for a cell: the
+  // break's own, or in a gap the line of the sum of its two breaks, the last one of which
+  // has its successor half a turn on, at -q.
   const std::size_t n = breaks.size();
   std::vector<std::optional<ExactLine>> cell(2 * n);
   std::vector<char> inside(2 * n);
@@ -101,30 +108,38 @@ std::vector<Arc> arcs_of(
                       : i + 1 == n ? line({p[0] - q[0], p[1] - q[1]})
                                    : line({p[0] + q[0], p[1] + q[1]});
   }
+  // Between two breaks nothing changes: what its one line meets, all lines of a gap meet.
   for (std::size_t i = 0; i < 2 * n; ++i) inside[i] = closure_meets(cell[i], elements);
+  // 4. A maximal run of cells inside is an arc: `collect` makes one of `count` cells.
   std::vector<Arc> arcs;
+  // The mark is a break, so that it is a cell of its own.
   const auto is_mark = [&](std::size_t i) {
     return mark != nullptr && i % 2 == 0 && order(breaks[i / 2], *mark) == Sign::Zero;
   };
   const auto collect = [&](std::size_t from, std::size_t count) {
     const auto at = [&](std::size_t k) { return cell[(from + k) % (2 * n)]; };
+    // A line in the middle is a better sample than one at an end; a cell has none where
+    // its line is at infinity.
     const auto some = at(count / 2) ? at(count / 2) : at(0);
     if (!some) return;
     Arc arc{{}, {}, *some, count == 1, false};
     for (std::size_t k = 0; k < count; ++k) {
       arc.has_mark |= is_mark((from + k) % (2 * n));
-      // From break to break; the whole circle closes on itself.
+      // A part runs from a break over the gap to the next break, by one line of each; the
+      // whole circle closes on itself.
       if (k + 2 < count + (count == 2 * n ? 1 : 0) && k % 2 == 0 && at(k) && at(k + 1) &&
           at(k + 2)) {
         arc.parts.push_back({*at(k), *at(k + 1), *at(k + 2)});
       }
     }
+    // The whole circle has no ends, a single line has one.
     if (count < 2 * n) {
       if (at(0)) add_distinct(arc.ends, *at(0));
       if (at(count - 1)) add_distinct(arc.ends, *at(count - 1));
     }
     arcs.push_back(std::move(arc));
   };
+  // 5. Runs are counted from a cell outside, so that none is cut at the first break.
   const auto outside = std::ranges::find(inside, 0);
   if (outside == inside.end()) {
     collect(0, 2 * n);

@@ -110,85 +110,127 @@ void SceneBuilder::collect_half_edges() {
   }
 }
 
+// Edges that only the flatness tolerance makes flat.
+struct SceneBuilder::DeclaredFlat {
+  int count = 0;
+  double largest = 0;      // of their angles, radians
+  std::vector<int> faces;  // at them, of the file
+};
+
 void SceneBuilder::classify_edges() {
   DisjointSets regions(scene.faces_.size());
   bulges.assign(scene.objects_.size(), 1);
-  int declared = 0;
-  double largest = 0;
-  std::vector<int> declared_faces;
-  const auto join_flat = [&](int f, int g, bool exact) {
-    regions.unite(f, g);
-    if (!exact) inexact_faces.push_back(f);
-  };
+  DeclaredFlat declared;
   for (std::size_t i = 0; i < half_edges.size();) {
     stage.at(i, half_edges.size());
+    // The half-edges of one object between the same two points are one mesh edge.
     std::size_t end = i + 1;
     while (end < half_edges.size() && half_edges[end].low == half_edges[i].low &&
            half_edges[end].high == half_edges[i].high &&
            half_edges[end].object == half_edges[i].object) {
       ++end;
     }
-    // Cuts inside one polygon of the file are flat by declaration and no mesh edges: the
-    // pairs are swapped to the front of the group and passed over.
-    for (std::size_t j = i; j < end; ++j) {
-      if (!half_edges[j].diagonal) continue;
-      for (std::size_t k = j + 1; k < end; ++k) {
-        hear_stop();
-        if (!half_edges[k].diagonal || half_edges[j].forward == half_edges[k].forward ||
-            scene.faces_[half_edges[j].face].source !=
-                scene.faces_[half_edges[k].face].source) {
-          continue;
-        }
-        const Meeting m = meet(scene, half_edges[j], half_edges[k]);
-        join_flat(half_edges[j].face, half_edges[k].face, m.exact);
-        if (!m.bulge) bulges[half_edges[j].object] = 0;
-        std::swap(half_edges[i], half_edges[j]);
-        std::swap(half_edges[i + 1], half_edges[k]);
-        i += 2;
-        j = i - 1;
-        break;
-      }
-    }
+    i = pass_diagonals(i, end, regions);
     const int count = static_cast<int>(end - i);
     if (count == 0) continue;
-    const HalfEdge& e = half_edges[i];
     MeshEdge edge{static_cast<int>(i), count, EdgeKind::NonManifold};
     if (count == 1) {
       edge.kind = EdgeKind::Boundary;
-    } else if (count == 2 && e.forward != half_edges[i + 1].forward) {
-      const HalfEdge& f = half_edges[i + 1];
-      Meeting m = meet(scene, e, f);
-      if (m.kind != EdgeKind::Flat && options.flatness > 0) {
-        const double angle = angle_between(scene, e.face, f.face);
-        if (angle <= options.flatness) {
-          m.kind = EdgeKind::Flat;
-          ++declared;
-          largest = std::max(largest, angle);
-          declared_faces.push_back(scene.faces_[e.face].source);
-          declared_faces.push_back(scene.faces_[f.face].source);
-        }
-      }
-      if (m.kind == EdgeKind::Flat) join_flat(e.face, f.face, m.exact);
-      if (!m.bulge) bulges[e.object] = 0;
-      edge.kind = m.kind;
-    }
-    if (edge.kind == EdgeKind::NonManifold) {
-      bulges[e.object] = 0;
-      std::vector<int> sources;
-      for (std::size_t j = i; j < end; ++j) {
-        sources.push_back(scene.faces_[half_edges[j].face].source);
-      }
-      const std::string faces = count == 2 ? "faces " + std::to_string(sources[0]) +
-                                                 " and " + std::to_string(sources[1])
-                                           : std::to_string(count) + " faces";
-      report(count == 2 ? "inconsistent orientation" : "non-manifold edge",
-             faces + " share " + edge_name(scene, e) +
-                 (count == 2 ? " and run along it the same way" : ""),
-             std::move(sources), {scene.vertex_of(e.low), scene.vertex_of(e.high)});
+    } else if (count == 2 && half_edges[i].forward != half_edges[i + 1].forward) {
+      edge.kind = kind_between(half_edges[i], half_edges[i + 1], regions, declared);
+    } else {
+      bulges[half_edges[i].object] = 0;
+      report_non_manifold(edge);
     }
     mesh_edges.push_back(edge);
     i = end;
   }
+  count_kinds();
+  if (declared.count > 0) report_declared(std::move(declared));
+  make_facets(regions);
+}
+
+// The two faces are of one facet.
+void SceneBuilder::join_flat(int f, int g, bool exact, DisjointSets& regions) {
+  regions.unite(f, g);
+  if (!exact) inexact_faces.push_back(f);
+}
+
+// Cuts inside one polygon of the file are flat by declaration and no mesh edges: the
+// pairs are swapped to the front of the group and passed over.  Returns where the rest of
+// the group begins.
+std::size_t SceneBuilder::pass_diagonals(std::size_t begin, std::size_t end,
+                                         DisjointSets& regions) {
+  for (std::size_t j = begin; j < end; ++j) {
+    if (!half_edges[j].diagonal) continue;
+    for (std::size_t k = j + 1; k < end; ++k) {
+      hear_stop();
+      if (!half_edges[k].diagonal || half_edges[j].forward == half_edges[k].forward ||
+          scene.faces_[half_edges[j].face].source !=
+              scene.faces_[half_edges[k].face].source) {
+        continue;
+      }
+      const Meeting m = meet(scene, half_edges[j], half_edges[k]);
+      join_flat(half_edges[j].face, half_edges[k].face, m.exact, regions);
+      if (!m.bulge) bulges[half_edges[j].object] = 0;
+      std::swap(half_edges[begin], half_edges[j]);
+      std::swap(half_edges[begin + 1], half_edges[k]);
+      begin += 2;
+      j = begin - 1;
+      break;
+    }
+  }
+  return begin;
+}
+
+// The kind of an edge with these two faces, which agree about their front.
+EdgeKind SceneBuilder::kind_between(const HalfEdge& e, const HalfEdge& f,
+                                    DisjointSets& regions, DeclaredFlat& declared) {
+  Meeting m = meet(scene, e, f);
+  if (m.kind != EdgeKind::Flat && options.flatness > 0) {
+    const double angle = angle_between(scene, e.face, f.face);
+    if (angle <= options.flatness) {
+      m.kind = EdgeKind::Flat;
+      ++declared.count;
+      declared.largest = std::max(declared.largest, angle);
+      declared.faces.push_back(scene.faces_[e.face].source);
+      declared.faces.push_back(scene.faces_[f.face].source);
+    }
+  }
+  if (m.kind == EdgeKind::Flat) join_flat(e.face, f.face, m.exact, regions);
+  if (!m.bulge) bulges[e.object] = 0;
+  return m.kind;
+}
+
+void SceneBuilder::report_non_manifold(const MeshEdge& edge) {
+  std::vector<int> sources;
+  for (int j = edge.first; j < edge.first + edge.count; ++j) {
+    sources.push_back(scene.faces_[half_edges[j].face].source);
+  }
+  const HalfEdge& e = half_edges[edge.first];
+  const bool two = edge.count == 2;
+  const std::string faces =
+      two ? "faces " + std::to_string(sources[0]) + " and " + std::to_string(sources[1])
+          : std::to_string(edge.count) + " faces";
+  report(two ? "inconsistent orientation" : "non-manifold edge",
+         faces + " share " + edge_name(scene, e) +
+             (two ? " and run along it the same way" : ""),
+         std::move(sources), {scene.vertex_of(e.low), scene.vertex_of(e.high)});
+}
+
+void SceneBuilder::report_declared(DeclaredFlat declared) {
+  auto& faces = declared.faces;
+  std::sort(faces.begin(), faces.end());
+  faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "%d edges are taken as flat, the largest angle is %.3g radians",
+                declared.count, declared.largest);
+  report("declared flat", text, std::move(faces));
+}
+
+// As the file means them: at a face that was turned, a valley was a ridge.
+void SceneBuilder::count_kinds() {
   for (const MeshEdge& e : mesh_edges) {
     MeshEdgeCounts& counts = scene.mesh_edges_;
     const bool turned = scene.turned(half_edges[e.first].face);
@@ -198,17 +240,6 @@ void SceneBuilder::classify_edges() {
        : e.kind == EdgeKind::Boundary ? counts.boundary
                                       : counts.nonmanifold);
   }
-  if (declared > 0) {
-    std::sort(declared_faces.begin(), declared_faces.end());
-    declared_faces.erase(std::unique(declared_faces.begin(), declared_faces.end()),
-                         declared_faces.end());
-    char text[160];
-    std::snprintf(text, sizeof text,
-                  "%d edges are taken as flat, the largest angle is %.3g radians",
-                  declared, largest);
-    report("declared flat", text, std::move(declared_faces));
-  }
-  make_facets(regions);
 }
 
 void SceneBuilder::make_facets(DisjointSets& regions) {
@@ -273,16 +304,20 @@ struct EdgeJoiner {
     std::sort(to.begin(), to.end());
     return from == to;
   }
+
+  // Which edge continues each mesh edge, at its low and at its high end; -1: none.
+  // `candidates`: the edges that are not flat.
+  std::vector<std::array<int, 2>> followers(std::span<const int> candidates) const;
+
+  // The maximal edge that begins with mesh edge e and goes on both ways as its followers
+  // say; `visit` hears of every mesh edge of it but e.
+  template <class Visit>
+  Edge maximal_edge(int e, std::span<const std::array<int, 2>> follower,
+                    Visit&& visit) const;
 };
 
-}  // namespace
-
-void SceneBuilder::join_edges() {
-  const EdgeJoiner joiner{scene, half_edges, mesh_edges};
-  std::vector<int> candidates;  // not flat
-  for (std::size_t e = 0; e < mesh_edges.size(); ++e) {
-    if (mesh_edges[e].kind != EdgeKind::Flat) candidates.push_back(static_cast<int>(e));
-  }
+std::vector<std::array<int, 2>> EdgeJoiner::followers(
+    std::span<const int> candidates) const {
   // Around each point, the candidates by object and key: two of these may be one,
   // whatever other edges end there.
   struct End {
@@ -295,13 +330,12 @@ void SceneBuilder::join_edges() {
   std::vector<End> ends;
   ends.reserve(2 * candidates.size());
   for (const int e : candidates) {
-    const int object = joiner.sides(e)[0].object, key = joiner.key(e);
-    ends.push_back({joiner.low(e), object, key, e});
-    ends.push_back({joiner.high(e), object, key, e});
+    const int object = sides(e)[0].object, k = key(e);
+    ends.push_back({low(e), object, k, e});
+    ends.push_back({high(e), object, k, e});
   }
   std::sort(ends.begin(), ends.end());
-  // Which edge continues this one at its low and at its high end.
-  std::vector<std::array<int, 2>> follower(mesh_edges.size(), {-1, -1});
+  std::vector<std::array<int, 2>> follower(edges.size(), {-1, -1});
   for (std::size_t i = 0; i < ends.size();) {
     std::size_t j = i + 1;
     while (j < ends.size() && ends[j].may_go_on_as(ends[i])) ++j;
@@ -309,71 +343,100 @@ void SceneBuilder::join_edges() {
     for (std::size_t k = i; k < j; ++k) {
       hear_stop();
       const int e = ends[k].edge;
-      int& after = follower[e][joiner.high(e) == p];
+      int& after = follower[e][high(e) == p];
       for (std::size_t l = k + 1; l < j && after < 0; ++l) {
         const int f = ends[l].edge;
-        int& before = follower[f][joiner.high(f) == p];
-        if (before >= 0 || !joiner.continues(e, f, p)) continue;
+        int& before = follower[f][high(f) == p];
+        if (before >= 0 || !continues(e, f, p)) continue;
         after = f;
         before = e;
       }
     }
     i = j;
   }
-  std::vector<std::uint8_t> done(mesh_edges.size(), 0);
-  std::vector<int> chain_of(mesh_edges.size(), -1);  // first mesh edge of its chain
-  std::vector<int> first_of_edge;                    // mesh edge, per maximal edge
-  scene.edges_.reserve(candidates.size());
-  for (const int e : candidates) {
-    stage.at(static_cast<std::size_t>(e), mesh_edges.size());
-    if (done[e]) continue;
-    done[e] = 1;
-    chain_of[e] = e;
-    first_of_edge.push_back(e);
-    std::array<int, 2> tips{joiner.low(e), joiner.high(e)};
-    for (int end = 0; end < 2; ++end) {
-      int at = e;
-      int p = tips[end];
-      for (int f; (f = follower[at][joiner.high(at) == p]) >= 0;) {
-        done[f] = 1;
-        chain_of[f] = e;
-        p = joiner.other_end(f, p);
-        at = f;
-      }
-      tips[end] = p;
+  return follower;
+}
+
+template <class Visit>
+Edge EdgeJoiner::maximal_edge(int e, std::span<const std::array<int, 2>> follower,
+                              Visit&& visit) const {
+  std::array<int, 2> tips{low(e), high(e)};
+  for (int& tip : tips) {
+    int at = e;
+    for (int f; (f = follower[at][high(at) == tip]) >= 0;) {
+      visit(f);
+      tip = other_end(f, tip);
+      at = f;
     }
-    Edge edge{{std::min(tips[0], tips[1]), std::max(tips[0], tips[1])},
-              mesh_edges[e].kind,
-              joiner.sides(e)[0].object,
-              {}};
-    const bool turned = tips[0] > tips[1];
-    for (const HalfEdge& h : joiner.sides(e)) {
-      edge.sides.push_back({h.face, h.forward != turned});
-    }
-    std::sort(edge.sides.begin(), edge.sides.end(),
-              [](const Edge::Side& s, const Edge::Side& t) {
-                return s.forward != t.forward ? s.forward : s.face < t.face;
-              });
-    scene.edges_.push_back(std::move(edge));
   }
-  std::vector<int> order(scene.edges_.size());
+  Edge edge{{std::min(tips[0], tips[1]), std::max(tips[0], tips[1])},
+            edges[e].kind,
+            sides(e)[0].object,
+            {}};
+  const bool turned = tips[0] > tips[1];
+  for (const HalfEdge& h : sides(e)) {
+    edge.sides.push_back({h.face, h.forward != turned});
+  }
+  std::sort(edge.sides.begin(), edge.sides.end(),
+            [](const Edge::Side& s, const Edge::Side& t) {
+              return s.forward != t.forward ? s.forward : s.face < t.face;
+            });
+  return edge;
+}
+
+// Sorts edges by their points, then by object; returns the new number of each.
+std::vector<int> sort_edges(std::vector<Edge>& edges) {
+  std::vector<int> order(edges.size());
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(), [&](int i, int j) {
-    const Edge &a = scene.edges_[i], &b = scene.edges_[j];
+    const Edge &a = edges[i], &b = edges[j];
     if (a.points != b.points) return a.points < b.points;
     return a.object != b.object ? a.object < b.object : i < j;
   });
   std::vector<Edge> sorted;
   sorted.reserve(order.size());
-  std::vector<int> edge_of_chain(mesh_edges.size(), -1);
+  std::vector<int> number(order.size());
   for (const int i : order) {
-    edge_of_chain[first_of_edge[i]] = static_cast<int>(sorted.size());
-    sorted.push_back(std::move(scene.edges_[i]));
+    number[i] = static_cast<int>(sorted.size());
+    sorted.push_back(std::move(edges[i]));
   }
-  scene.edges_ = std::move(sorted);
-  scene.side_edges_.assign(scene.corners_.size(), -1);
+  edges = std::move(sorted);
+  return number;
+}
+
+}  // namespace
+
+void SceneBuilder::join_edges() {
+  const EdgeJoiner joiner{scene, half_edges, mesh_edges};
+  std::vector<int> candidates;  // not flat
+  for (std::size_t e = 0; e < mesh_edges.size(); ++e) {
+    if (mesh_edges[e].kind != EdgeKind::Flat) candidates.push_back(static_cast<int>(e));
+  }
+  const std::vector<std::array<int, 2>> follower = joiner.followers(candidates);
+  std::vector<int> edge_of(mesh_edges.size(), -1);  // maximal edge of each mesh edge
+  scene.edges_.reserve(candidates.size());
   for (const int e : candidates) {
-    for (const HalfEdge& h : joiner.sides(e)) {
+    stage.at(static_cast<std::size_t>(e), mesh_edges.size());
+    if (edge_of[e] >= 0) continue;
+    const int id = static_cast<int>(scene.edges_.size());
+    edge_of[e] = id;
+    scene.edges_.push_back(
+        joiner.maximal_edge(e, follower, [&](int f) { edge_of[f] = id; }));
+  }
+  const std::vector<int> number = sort_edges(scene.edges_);
+  for (const int e : candidates) edge_of[e] = number[edge_of[e]];
+  name_sides(edge_of);
+  index_edges();
+}
+
+// Tells each side of a face its maximal edge; `edge_of` by mesh edge, -1: flat.
+void SceneBuilder::name_sides(std::span<const int> edge_of) {
+  scene.side_edges_.assign(scene.corners_.size(), -1);
+  for (std::size_t e = 0; e < mesh_edges.size(); ++e) {
+    if (edge_of[e] < 0) continue;
+    const MeshEdge& edge = mesh_edges[e];
+    for (int i = edge.first; i < edge.first + edge.count; ++i) {
+      const HalfEdge& h = half_edges[i];
       const Face& face = scene.faces_[h.face];
       const int from = h.forward ? h.low : h.high;
       const int to = h.forward ? h.high : h.low;
@@ -381,11 +444,15 @@ void SceneBuilder::join_edges() {
       for (int k = 0; k < face.corner_count; ++k) {
         if (scene.corners_[face.first_corner + k] == from &&
             scene.corners_[face.first_corner + (k + 1) % face.corner_count] == to) {
-          scene.side_edges_[face.first_corner + k] = edge_of_chain[chain_of[e]];
+          scene.side_edges_[face.first_corner + k] = edge_of[e];
         }
       }
     }
   }
+}
+
+// Lists the edges at each point, and the points at which some edge ends: the corners.
+void SceneBuilder::index_edges() {
   auto& starts = scene.edge_starts_;
   starts.assign(scene.points_.size() + 1, 0);
   for (const Edge& edge : scene.edges_) {

@@ -118,6 +118,8 @@ bool bounds_convex_solid(const Scene& scene, const Object& object) {
 }  // namespace
 
 void SceneBuilder::make_objects() {
+  // 1. Polygons with a name: an object per name.  A polygon that several groups hold goes
+  // with the first of them; a name that comes twice is one group.
   const auto& soup = scene.soup_;
   std::vector<int> object_of(soup.polygons.size(), -1);  // first: group of that name
   std::vector<std::string> names;
@@ -126,23 +128,27 @@ void SceneBuilder::make_objects() {
   for (const auto& group : soup.groups) {
     const auto [entry, is_new] =
         number_of.emplace(group.name, static_cast<int>(names.size()));
+    // An alias tells a group by another name: no object may take it for its own.
     if (is_new) names.push_back(group.name);
     aliases.insert(group.aliases.begin(), group.aliases.end());
     for (const int f : group.faces) {
       if (object_of[f] < 0) object_of[f] = entry->second;
     }
   }
+  // 2. The same by face: a face has the name of the polygon that it was cut from.
   std::vector<int> group_of(scene.faces_.size());
   for (std::size_t f = 0; f < group_of.size(); ++f) {
     group_of[f] = object_of[scene.faces_[f].source];
   }
-  // Faces without a name: one object per component.
+  // 3. Faces without a name: one object per component, component0 and so on.  Faces that
+  // have a name do not connect others, and names that the file uses are passed over.
   if (std::find(group_of.begin(), group_of.end(), -1) != group_of.end()) {
     auto sets = components(scene, 2, [&](int f) { return group_of[f] < 0 ? 0 : 1; });
     std::vector<int> component(scene.faces_.size(), -1);
     int next = 0;
     for (std::size_t f = 0; f < group_of.size(); ++f) {
       if (group_of[f] >= 0) continue;
+      // The component is named when its first face comes: by its smallest face.
       int& number = component[sets.find(static_cast<int>(f))];
       if (number < 0) {
         number = static_cast<int>(names.size());
@@ -158,11 +164,13 @@ void SceneBuilder::make_objects() {
       if (group_of[f] < 0) group_of[f] = component[f];
     }
   }
-  // Names that no usable face has are not objects.
+  // 4. The objects, in the order in which the file names them.  Names that no usable face
+  // has are not objects.
   std::vector<std::vector<int>> faces(names.size());
   for (std::size_t f = 0; f < group_of.size(); ++f) {
     faces[group_of[f]].push_back(static_cast<int>(f));
   }
+  // Faces and object know each other; the name leads to the object, for those who ask.
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (faces[i].empty()) continue;
     const int object = static_cast<int>(scene.objects_.size());

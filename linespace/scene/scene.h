@@ -120,8 +120,18 @@ struct SceneBuilder {
 
   void collect_half_edges();  // edges.cpp
   void classify_edges();
+  struct DeclaredFlat;
+  void join_flat(int f, int g, bool exact, DisjointSets& regions);
+  std::size_t pass_diagonals(std::size_t begin, std::size_t end, DisjointSets& regions);
+  EdgeKind kind_between(const HalfEdge& e, const HalfEdge& f, DisjointSets& regions,
+                        DeclaredFlat& declared);
+  void report_non_manifold(const MeshEdge& edge);
+  void report_declared(DeclaredFlat declared);
+  void count_kinds();
   void make_facets(DisjointSets& regions);
   void join_edges();
+  void name_sides(std::span<const int> edge_of);
+  void index_edges();
 };
 
 /// Face ids, ascending, of the faces that the wanted polygons of the file (1, for each)

@@ -77,11 +77,13 @@ void SceneBuilder::check_usable() const {
 // objects only when they face the same way, because solids may touch.
 void SceneBuilder::check_duplicates() {
   const auto& faces = scene.faces_;
-  // Point ids of the polygon of the file that faces [first, last) are pieces of.
+  // A polygon of the file: faces [first, last) are its pieces.
   struct Polygon {
     std::uint64_t hash;
     int first, last;
   };
+  // Fills `ids` with the polygon's points, ascending: the same for all its copies,
+  // however they were cut.
   std::vector<int> ids;
   const auto points_of = [&](int first, int last) {
     ids.clear();
@@ -92,9 +94,12 @@ void SceneBuilder::check_duplicates() {
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
   };
+  // 1. Hash every polygon by its points and its number of them.  Equal polygons come to
+  // stand together, the first of the file first.
   std::vector<Polygon> polygons;
   polygons.reserve(faces.size());
   for (std::size_t f = 0; f < faces.size();) {
+    // The pieces of a polygon stand together.
     std::size_t last = f + 1;
     while (last < faces.size() && faces[last].source == faces[f].source) ++last;
     points_of(static_cast<int>(f), static_cast<int>(last));
@@ -109,12 +114,15 @@ void SceneBuilder::check_duplicates() {
   std::sort(polygons.begin(), polygons.end(), [](const Polygon& p, const Polygon& q) {
     return std::pair(p.hash, p.first) < std::pair(q.hash, q.first);
   });
-  // Same front: some side runs the same way in both.
+  // Same front: some side of the file's polygon runs the same way in both.  Where two
+  // copies share no side in either sense they count as facing the same way, so that they
+  // are reported.
   const auto same_front = [&](const Polygon& p, const Polygon& q) {
     const auto a = scene.face_points(p.first);
     for (int f = q.first; f < q.last; ++f) {
       const auto b = scene.face_points(f);
       for (std::size_t i = 0; i < a.size(); ++i) {
+        // A diagonal is no side of the polygon: copies may be cut differently.
         if (is_diagonal[faces[p.first].first_corner + i]) continue;
         const int from = a[i], to = a[(i + 1) % a.size()];
         for (std::size_t j = 0; j < b.size(); ++j) {
@@ -126,6 +134,8 @@ void SceneBuilder::check_duplicates() {
     }
     return true;
   };
+  // 2. Pair each polygon with its next copy.  An equal hash is only a hint: the points
+  // decide.
   std::vector<std::pair<int, int>> pairs;  // positions in `polygons`, first of its kind
   std::vector<int> ids_of_first;
   for (std::size_t i = 0; i < polygons.size(); ++i) {
@@ -135,11 +145,13 @@ void SceneBuilder::check_duplicates() {
       points_of(polygons[i].first, polygons[i].last);
       ids_of_first = ids;
       points_of(polygons[j].first, polygons[j].last);
+      // Different polygons of one hash.
       if (ids != ids_of_first) continue;
       pairs.emplace_back(static_cast<int>(i), static_cast<int>(j));
       break;  // the next copy is reported with this one
     }
   }
+  // 3. Report them in the order of the file, which the hashes have lost.
   std::sort(pairs.begin(), pairs.end(), [&](const auto& p, const auto& q) {
     return polygons[p.first].first < polygons[q.first].first;
   });
@@ -147,7 +159,9 @@ void SceneBuilder::check_duplicates() {
     const Polygon& p = polygons[i];
     const Polygon& q = polygons[j];
     const bool same = same_front(p, q);
+    // Where two objects touch face to face, the fronts differ: no defect.
     if (!same && faces[p.first].object != faces[q.first].object) continue;
+    // Named by their numbers in the file.
     const int a = faces[p.first].source, b = faces[q.first].source;
     report("duplicate face",
            "faces " + std::to_string(a) + " and " + std::to_string(b) +

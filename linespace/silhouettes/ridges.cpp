@@ -24,6 +24,8 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
   const Sign s1 = plane(e1);
   const auto corners = scene.face_points(f);
   const std::size_t n = corners.size();
+  // 1. The edge is not in the face's plane.  An end in that plane is no inner point: such
+  // an edge meets nothing here.
   if (s0 != Sign::Zero || s1 != Sign::Zero) {
     if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) return EdgeTouch::None;
     // Crosses the plane inside: within the closed polygon unless it passes some side on
@@ -32,6 +34,7 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
     for (std::size_t k = 0; k < n; ++k) {
       const Sign s =
           orient3d(scene.point(corners[k]), scene.point(corners[(k + 1) % n]), e0, e1);
+      // The edge meets a side of the face: that counts unless the side is flat.
       if (s == Sign::Zero) {
         at_edge |= scene.edge_of_side(f, static_cast<int>(k)) >= 0;
         continue;
@@ -42,8 +45,9 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
     }
     return at_edge ? EdgeTouch::Touches : EdgeTouch::Pierced;
   }
-  // Coplanar: clip combinatorially.  Outside some side as a whole: no touch.
+  // 2. Coplanar: clip combinatorially.  Outside some side as a whole: no touch.
   const InPlaneSide left_of(scene, f);
+  // How many sides each end is outside of: none for an end within the face.
   bool along_side = false;
   int outside_ends[2] = {0, 0};
   for (std::size_t k = 0; k < n; ++k) {
@@ -72,6 +76,7 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
     // At most a corner of the polygon lies on the open segment.
     return EdgeTouch::Touches;
   }
+  // 3. Both ends within the face: all of the edge is inside of it.
   return outside_ends[0] == 0 && outside_ends[1] == 0 ? EdgeTouch::ContainsInside
                                                       : EdgeTouch::Touches;
 }

@@ -138,26 +138,33 @@ Star Silhouettes::star_of(int p) const {
   const Point& at = s.point(p);
   Star star;
   star.point = p;
+  // 1. Its own facets: those with a corner here.
   for (const int e : s.edges_at(p)) {
     for (const Edge::Side& side : s.edges()[e].sides) {
       star.facets.push_back(s.faces()[side.face].facet);
     }
   }
   sort_unique(star.facets);
+  // A facet may have several faces here: each of them is own, or none.
   const auto is_own = [&](int f) {
     return std::binary_search(star.facets.begin(), star.facets.end(), s.faces()[f].facet);
   };
-  // The faces at the point: whether it is one of their vertices does not matter.
+  // 2. The faces at the point: whether it is one of their vertices does not matter. Those
+  // that have it inside or on a side come from the boxes that contain it.
   star.faces.assign(s.faces_at(p).begin(), s.faces_at(p).end());
   const Box box = box_of(std::array<Point, 1>{at});
   face_tree_.traverse([&](const Box& other) { return boxes_meet(box, other); },
                       [&](std::uint32_t item) {
                         const int f = static_cast<int>(item);
+                        // Faces with the point for a vertex are known; others must
+                        // have it in their plane, and not outside of their sides.
                         if (has_point(s, f, p) || face_planes_[f](at) != Sign::Zero)
                           return;
                         if (locate_in_plane(s, f, at) != PointInFace::Outside)
                           star.faces.push_back(f);
                       });
+  // 3. Facets of others that the point lies on.  Inside of one, all lines but those in
+  // its plane cross it.
   std::vector<Wedge> wedges;
   for (const int f : star.faces) add_wedges(s, f, p, wedges);
   std::vector<std::int32_t> foreign;
@@ -165,6 +172,7 @@ Star Silhouettes::star_of(int p) const {
     if (!is_own(f)) foreign.push_back(s.faces()[f].facet);
   }
   sort_unique(foreign);
+  // One face of such a facet is kept, for its plane.
   for (const int facet : foreign) {
     if (!inside_facet(p, facet, star.faces)) continue;
     star.in_plane_only = true;
@@ -172,6 +180,8 @@ Star Silhouettes::star_of(int p) const {
         *std::find_if(star.faces.begin(), star.faces.end(),
                       [&](std::int32_t f) { return s.faces()[f].facet == facet; }));
   }
+  // 4. Near the point each face is a wedge between two rays.  Rays of one direction are
+  // one, however far their ends are: `ray` finds the number of the ray towards a point.
   const auto ray = [&](std::int32_t far) {
     hear_stop();
     for (std::size_t r = 0; r < star.rays.size(); ++r) {
@@ -184,11 +194,14 @@ Star Silhouettes::star_of(int p) const {
     return static_cast<std::int32_t>(star.rays.size() - 1);
   };
   for (const auto& w : wedges) star.sectors.push_back({ray(w[0]), ray(w[1]), w[2]});
+  // 5. Which rays are edges; the other ones only divide faces of one facet.
   star.along_edge.assign(star.rays.size(), 0);
   for (const int f : star.faces) {
     for (const int end : ends_of_edges_at(s, f, p)) star.along_edge[ray(end)] = 1;
   }
 
+  // 6. Touched by nothing, and the intersection of the half-spaces behind its faces: such
+  // a corner is judged by its planes alone.
   star.touched = !foreign.empty() || objects_at(p).size() > 1;
   star.convex = !star.touched && is_one_cone(*this, star, wedges);
   return star;

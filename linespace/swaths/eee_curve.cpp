@@ -373,110 +373,137 @@ void EeeCurve::keep(const CurveInterval& in, const CurveCut* roots, int count, S
   }
 }
 
+namespace {
+
+// H along [a, b] in doubles: its values at both ends and the blossom between, that is the
+// middle coefficient of H over [a, b], with their signs, zero where they are not certain.
+struct QuadraticOnInterval {
+  const Bernstein& h;
+  double a, b;
+  double at_a, middle, at_b;
+  Sign sign_a, sign_middle, sign_b;
+
+  QuadraticOnInterval(const Bernstein& quadratic, double from, double to)
+      : h(quadratic),
+        a(from),
+        b(to),
+        at_a(h.blossom(a, a)),
+        middle(h.blossom(a, b)),
+        at_b(h.blossom(b, b)),
+        sign_a(certain_sign(at_a, h.error)),
+        sign_middle(certain_sign(middle, h.error)),
+        sign_b(certain_sign(at_b, h.error)) {}
+
+  // Takes the signs of the rounded values for the true ones.
+  void believe() {
+    sign_a = sign_of(at_a);
+    sign_middle = sign_of(middle);
+    sign_b = sign_of(at_b);
+  }
+  [[nodiscard]] bool of_one_sign() const {
+    return sign_a == sign_middle && sign_middle == sign_b && sign_a != Sign::Zero;
+  }
+};
+
+// How many roots H has in the interval, whose ends have certain signs; -1: not certain.
+int count_roots(const QuadraticOnInterval& q, double discriminant) {
+  if (q.sign_a != q.sign_b) return 1;
+  // Two roots between need the middle coefficient on the other side.
+  if (q.sign_middle == q.sign_a) return 0;
+  const double size = std::abs(q.at_a) + std::abs(q.middle) + std::abs(q.at_b);
+  const double error = 4 * q.h.error * size + 8 * kU * size * size;
+  if (discriminant < -error || (in_double() && discriminant <= 0)) return 0;
+  if (discriminant <= error && !in_double()) return -1;
+  return q.sign_middle == Sign::Zero ? -1 : 2;
+}
+
+// Encloses the root of H at a + (b - a) u / (1 + u) and tells whether H rises there;
+// `before`: the sign of H just before it, `root`: of the discriminant.  False when the
+// enclosure is not certain.
+bool enclose(const QuadraticOnInterval& q, double u, double root, Sign before,
+             CurveCut& cut) {
+  const double width = q.b - q.a;
+  const double s = q.a + width * (std::isfinite(u) ? u / (1 + u) : 1.0);
+  cut.rising = before == Sign::Negative;
+  if (in_double()) {
+    cut.lo = cut.hi = s;
+    return true;
+  }
+  double margin = 4 * kU + 4 * q.h.error * width / root;
+  for (int tries = 0; tries < 3; ++tries, margin *= 16) {
+    cut.lo = s - margin;
+    cut.hi = s + margin;
+    const Sign at_lo = certain_sign(q.h.blossom(cut.lo, cut.lo), q.h.error);
+    const Sign at_hi = certain_sign(q.h.blossom(cut.hi, cut.hi), q.h.error);
+    if (at_lo == before && at_hi == -before && cut.lo > -0.01 && cut.hi < 1.01) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Encloses the roots of H in the interval, one or two, in order; false when that is not
+// certain.
+bool enclose_roots(const QuadraticOnInterval& q, int count, double discriminant,
+                   CurveCut* cuts) {
+  // By the formulas for an H that is positive at a.
+  const double flip = q.sign_a == Sign::Positive ? 1 : -1;
+  const double x = flip * q.at_a;
+  const double y = flip * q.middle;
+  const double z = flip * q.at_b;
+  const double root = std::sqrt(std::max(0.0, discriminant));
+  if (count == 1) {  // x > 0 > z
+    const double u = y >= 0 ? (y + root) / -z : x / (root - y);
+    return enclose(q, u, root, q.sign_a, cuts[0]);
+  }
+  const double w = -y + root;  // x, z > 0 > y
+  return enclose(q, x / w, root, q.sign_a, cuts[0]) &&
+         enclose(q, w / z, root, -q.sign_a, cuts[1]) && cuts[0].hi < cuts[1].lo;
+}
+
+}  // namespace
+
 void EeeCurve::where(int carrier, const BoundedForm& form, Sign wanted,
                      const CurveInterval& in, std::vector<CurveInterval>& out,
                      bool& degenerate) const {
   const Bernstein h = quadratic(form_, form);
-  const double a = in.from.lo;
-  const double b = in.to.hi;
+  QuadraticOnInterval q(h, in.from.lo, in.to.hi);
   // H vanishes at an end of the edge when a factor of either product does.
   const auto vanishes = [&](int k) {
     return (form_.zero[k][0] || form.zero[k][1]) && (form_.zero[k][1] || form.zero[k][0]);
   };
-  const double ha = h.blossom(a, a);
-  const double hm = h.blossom(a, b);
-  const double hb = h.blossom(b, b);
-  Sign sa = certain_sign(ha, h.error);
-  Sign sm = certain_sign(hm, h.error);
-  Sign sb = certain_sign(hb, h.error);
   // Then what is left is linear, and has the sign of the middle coefficient there.
-  if (a == 0 && vanishes(0)) sa = sm;
-  if (b == 1 && vanishes(1)) sb = sm;
-  if (sa == sm && sm == sb && sa != Sign::Zero) {
+  if (q.a == 0 && vanishes(0)) q.sign_a = q.sign_middle;
+  if (q.b == 1 && vanishes(1)) q.sign_b = q.sign_middle;
+  const auto has_no_root = [&] {
     ++stage_counts.by_double;
-    if (sa == wanted) out.push_back(in);
-    return;
-  }
-  if (in_double()) {
-    sa = sign_of(ha);
-    sm = sign_of(hm);
-    sb = sign_of(hb);
-  }
-  if (sa == Sign::Zero || sb == Sign::Zero) {
+    if (q.sign_a == wanted) out.push_back(in);
+  };
+  if (q.of_one_sign()) return has_no_root();
+  if (in_double()) q.believe();
+  if (q.sign_a == Sign::Zero || q.sign_b == Sign::Zero) {
     if (!in_double()) where_exactly(carrier, wanted, in, out, degenerate);
     return;
   }
-  const double size = std::abs(ha) + std::abs(hm) + std::abs(hb);
-  const double disc = hm * hm - ha * hb;
-  const double disc_error = 4 * h.error * size + 8 * kU * size * size;
-  if (sa == sb) {
-    if (disc < -disc_error || (in_double() && (disc <= 0 || sm == sa))) {
-      ++stage_counts.by_double;
-      if (sa == wanted) out.push_back(in);
-      return;
-    }
-    // Two roots between need the middle coefficient on the other side.
-    if (sm == sa) {
-      ++stage_counts.by_double;
-      if (sa == wanted) out.push_back(in);
-      return;
-    }
-    if (disc <= disc_error && !in_double()) {
-      where_exactly(carrier, wanted, in, out, degenerate);
-      return;
-    }
-    if (sm == Sign::Zero) {
-      where_exactly(carrier, wanted, in, out, degenerate);
-      return;
-    }
-  }
-  const double flip = sa == Sign::Positive ? 1 : -1;
-  const double x = flip * ha;
-  const double y = flip * hm;
-  const double z = flip * hb;
-  const double root = std::sqrt(std::max(0.0, disc));
+  const double discriminant = q.middle * q.middle - q.at_a * q.at_b;
+  const int roots = count_roots(q, discriminant);
+  if (roots == 0) return has_no_root();
   CurveCut cuts[2];
-  int count = 0;
-  const auto add = [&](double u, bool falls) {
-    const double width = b - a;
-    const double s = a + width * (std::isfinite(u) ? u / (1 + u) : 1.0);
-    CurveCut& cut = cuts[count++];
+  const bool sure = roots > 0 && enclose_roots(q, roots, discriminant, cuts);
+  if (roots < 0 || (!sure && !in_double())) {
+    return where_exactly(carrier, wanted, in, out, degenerate);
+  }
+  for (CurveCut& cut : cuts) {
     cut.kind = CurveCutKind::Crossing;
     cut.feature = carrier;
-    const bool rises = (flip > 0) != falls;
-    cut.rising = rises == (middle_ < carrier);
-    if (in_double()) {
-      cut.lo = cut.hi = s;
-      return true;
-    }
-    double margin = 4 * kU + 4 * h.error * width / root;
-    for (int tries = 0; tries < 3; ++tries, margin *= 16) {
-      cut.lo = s - margin;
-      cut.hi = s + margin;
-      const Sign before = certain_sign(flip * h.blossom(cut.lo, cut.lo), h.error);
-      const Sign after = certain_sign(flip * h.blossom(cut.hi, cut.hi), h.error);
-      const Sign expected = falls ? Sign::Positive : Sign::Negative;
-      if (before == expected && after == -expected && cut.lo > -0.01 && cut.hi < 1.01) {
-        return true;
-      }
-    }
-    return false;
-  };
-  bool sure;
-  if (sa == sb) {  // x, z > 0 > y
-    const double q = -y + root;
-    sure = add(x / q, true) && add(q / z, false) && cuts[0].hi < cuts[1].lo;
-  } else {  // x > 0 > z
-    sure = add(y >= 0 ? (y + root) / -z : x / (root - y), true);
-  }
-  if (!sure && !in_double()) {
-    where_exactly(carrier, wanted, in, out, degenerate);
-    return;
+    // Of H taken in order of carriers.
+    cut.rising = cut.rising == (middle_ < carrier);
   }
   ++stage_counts.by_double;
-  keep(in, cuts, count, sa, wanted, out);
+  keep(in, cuts, roots, q.sign_a, wanted, out);
 }
 
+// The same, with H's exact coefficients.
 void EeeCurve::where_exactly(int carrier, Sign wanted, const CurveInterval& in,
                              std::vector<CurveInterval>& out, bool& degenerate) const {
   ++stage_counts.by_exact;
@@ -496,50 +523,77 @@ void EeeCurve::where_exactly(int carrier, Sign wanted, const CurveInterval& in,
     if (sign_a == wanted) out.push_back(in);  // at most touched
     return;
   }
+  // The roots of H on the whole line, in order; from left to right a positive leading
+  // coefficient first falls.
   CurveCut roots[2];
   int count = 0;
-  const auto add = [&](bool rises) {
-    CurveCut& cut = roots[count++];
-    cut.kind = CurveCutKind::Crossing;
-    cut.feature = carrier;
-    cut.rising = rises == (middle_ < carrier);
-    const QuadraticRoot r = exact(cut);
-    const double s = quotient({r.a, r.b}, {r.c, 0}, r.d);
-    const double margin = std::abs(s) * 2 * kQuotientError + 0x1p-1000;
-    cut.lo = s - margin;
-    cut.hi = s + margin;
-  };
-  // From left to right a positive leading coefficient first falls.
   if (sign_a == Sign::Zero) {
-    add(sign_b == Sign::Positive);
+    roots[count++] = exact_crossing(carrier, sign_b == Sign::Positive);
   } else {
-    add(sign_a != Sign::Positive);
-    add(sign_a == Sign::Positive);
+    roots[count++] = exact_crossing(carrier, sign_a != Sign::Positive);
+    roots[count++] = exact_crossing(carrier, sign_a == Sign::Positive);
   }
   // Sign before the first root; roots at or before the start are passed.
   Sign first = roots[0].rising == (middle_ < carrier) ? Sign::Negative : Sign::Positive;
   const CurveCut* next = roots;
-  const auto beyond_start = [&](const CurveCut& c) {
-    if (in.from.kind == CurveCutKind::Start) {
-      const QuadraticRoot r = exact(c);
-      return sign_of(Surd{r.a, r.b}, r.d) == Sign::Positive;
-    }
-    return compare(in.from, c) == Sign::Negative;
-  };
-  const auto before_end = [&](const CurveCut& c) {
-    if (in.to.kind == CurveCutKind::End) {
-      const QuadraticRoot r = exact(c);
-      return sign_of(Surd{r.a - r.c, r.b}, r.d) == Sign::Negative;
-    }
-    return compare(c, in.to) == Sign::Negative;
-  };
-  while (count > 0 && !beyond_start(*next)) {
+  while (count > 0 && !is_before(in.from, *next)) {
     ++next;
     --count;
     first = -first;
   }
-  while (count > 0 && !before_end(next[count - 1])) --count;
+  while (count > 0 && !is_before(next[count - 1], in.to)) --count;
   keep(in, next, count, first, wanted, out);
+}
+
+// The root at which H of the carrier rises, or falls, wherever it lies.
+CurveCut EeeCurve::exact_crossing(int carrier, bool rises) const {
+  CurveCut cut{CurveCutKind::Crossing, rises == (middle_ < carrier), carrier};
+  const QuadraticRoot r = exact(cut);
+  const double s = quotient({r.a, r.b}, {r.c, 0}, r.d);
+  const double margin = std::abs(s) * 2 * kQuotientError + 0x1p-1000;
+  cut.lo = s - margin;
+  cut.hi = s + margin;
+  return cut;
+}
+
+// a lies before b, one of which may be a root of H beyond the ends of the first edge,
+// where compare() does not look.
+bool EeeCurve::is_before(const CurveCut& a, const CurveCut& b) const {
+  if (a.kind == CurveCutKind::Start) {
+    const QuadraticRoot r = exact(b);
+    return sign_of(Surd{r.a, r.b}, r.d) == Sign::Positive;
+  }
+  if (b.kind == CurveCutKind::End) {
+    const QuadraticRoot r = exact(a);
+    return sign_of(Surd{r.a - r.c, r.b}, r.d) == Sign::Negative;
+  }
+  return compare(a, b) == Sign::Negative;
+}
+
+// The sign of (F0 - F1) c_g - (G0 - G1) c_f at a cut, in doubles: Zero where it is not
+// certain; at precision Double as computed.  c as in order_at().
+Sign EeeCurve::rounded_order_at(const CurveCut& cut, int carrier,
+                                const BoundedForm& form) const {
+  const auto value = [&](const Carrier& g) {
+    return orient3d_value(pair_.at(pair_.q[0]), pair_.at(pair_.q[1]),
+                          pair_.at(g.points[0]), pair_.at(g.points[1]));
+  };
+  const BoundedValue cf = value(carriers_[middle_]);
+  const BoundedValue cg = value(carriers_[carrier]);
+  const auto at = [&](double s) {
+    const double df =
+        (form_.f[0][0] - form_.f[0][1]) * (1 - s) + (form_.f[1][0] - form_.f[1][1]) * s;
+    const double dg =
+        (form.f[0][0] - form.f[0][1]) * (1 - s) + (form.f[1][0] - form.f[1][1]) * s;
+    return df * cg.value - dg * cf.value;
+  };
+  if (in_double()) return sign_of(at(cut.lo));
+  const double c_error = std::max(cf.error, cg.error);
+  const double c = std::max(std::abs(cf.value), std::abs(cg.value)) + c_error;
+  const double error = 4 * ((form_.error + form.error) * c +
+                            (form_.largest + form.largest) * (c_error + 8 * kU * c));
+  const Sign at_lo = certain_sign(at(cut.lo), error);
+  return at_lo == certain_sign(at(cut.hi), error) ? at_lo : Sign::Zero;
 }
 
 // A contact at P + mu (Q - P) has mu / (1 - mu) = (F0 - F1) / c with c = orient3d(Q0, Q1,
@@ -554,28 +608,8 @@ Sign EeeCurve::order_at(const CurveCut& cut, int carrier, const BoundedForm& for
   const Sign sign_f = beside(pair_.q, f_line);
   const Sign sign_g = beside(pair_.q, g_line);
   if (sign_g != Sign::Zero) {
-    const auto value = [&](const Carrier& g) {
-      return orient3d_value(pair_.at(pair_.q[0]), pair_.at(pair_.q[1]),
-                            pair_.at(g.points[0]), pair_.at(g.points[1]));
-    };
-    const BoundedValue cf = value(f_line);
-    const BoundedValue cg = value(g_line);
-    const auto at = [&](double s) {
-      const double df =
-          (form_.f[0][0] - form_.f[0][1]) * (1 - s) + (form_.f[1][0] - form_.f[1][1]) * s;
-      const double dg =
-          (form.f[0][0] - form.f[0][1]) * (1 - s) + (form.f[1][0] - form.f[1][1]) * s;
-      return df * cg.value - dg * cf.value;
-    };
-    const double c_error = std::max(cf.error, cg.error);
-    const double c = std::max(std::abs(cf.value), std::abs(cg.value)) + c_error;
-    const double error = 4 * ((form_.error + form.error) * c +
-                              (form_.largest + form.largest) * (c_error + 8 * kU * c));
-    const Sign at_lo = certain_sign(at(cut.lo), error);
-    if (in_double()) return sign_of(at(cut.lo)) * sign_f * sign_g;
-    if (at_lo != Sign::Zero && at_lo == certain_sign(at(cut.hi), error)) {
-      return at_lo * sign_f * sign_g;
-    }
+    const Sign rounded = rounded_order_at(cut, carrier, form);
+    if (rounded != Sign::Zero || in_double()) return rounded * sign_f * sign_g;
   }
   ++stage_counts.by_exact;
   const auto& f = exact_form().f;

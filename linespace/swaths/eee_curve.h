@@ -199,6 +199,10 @@ class EeeCurve {
   [[nodiscard]] Quadratic<Ring> exact_quadratic(int carrier) const;
   void where_exactly(int carrier, Sign wanted, const CurveInterval& in,
                      std::vector<CurveInterval>& out, bool& degenerate) const;
+  [[nodiscard]] Sign rounded_order_at(const CurveCut& cut, int carrier,
+                                      const BoundedForm& form) const;
+  [[nodiscard]] CurveCut exact_crossing(int carrier, bool rises) const;
+  [[nodiscard]] bool is_before(const CurveCut& a, const CurveCut& b) const;
   void keep(const CurveInterval& in, const CurveCut* roots, int count, Sign first,
             Sign wanted, std::vector<CurveInterval>& out) const;
 

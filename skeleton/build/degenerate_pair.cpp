@@ -2,18 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
-#include <limits>
 #include <optional>
 
 #include "linespace/lines/rounded_root.h"
-#include "linespace/sight/line_probe.h"
-#include "linespace/sight/plane_crossings.h"
 #include "linespace/silhouettes/drawn.h"
-#include "linespace/silhouettes/plane_values.h"
 #include "linespace/space/shaft.h"
 #include "linespace/work/stop_scope.h"
-#include "skeleton/nodes/known_lines.h"
 #include "skeleton/nodes/node_contacts.h"
 
 namespace sightline::internal {
@@ -60,15 +54,198 @@ std::vector<int> faces_towards(const Silhouettes& g, const Point& v, const Point
   return found;
 }
 
-// Kind and generators of a node that was added without them.
-void name_node(VertexView& view, std::uint32_t id, const NodeContacts& contacts) {
-  SkeletonNode& node = view.nodes[id];
-  node.kind = contacts.kind;
-  node.self = contacts.self;
-  node.first_generator = static_cast<std::uint32_t>(view.pool.size());
-  node.generator_count = static_cast<std::uint32_t>(contacts.generators.size());
-  view.pool.insert(view.pool.end(), contacts.generators.begin(),
-                   contacts.generators.end());
+// Which ends of a line from the vertex to the ridge are end contacts.
+using Ends = std::array<bool, 2>;
+
+// The arcs of one vertex and one ridge, found by the contacts of single lines.  A *stop*
+// is a cut of the edge at which the contacts of the line through it can change; between
+// two stops one line speaks for all.
+class DegenerateArcs {
+ public:
+  // `meeting`: all faces that meet the triangle between vertex and ridge.
+  DegenerateArcs(const Silhouettes& g, const Star& star, const Ridge& ridge,
+                 std::span<const std::int32_t> meeting, VertexView& out);
+
+  // Adds the arcs in an open part of the edge.
+  void add_arcs(const CutInterval& open, const PlaneSide& plane,
+                std::span<const CutInterval> ending);
+
+ private:
+  [[nodiscard]] ExactPoint point_at(const Cut& c) const;
+  [[nodiscard]] ExactPoint point_between(const Cut& a, const Cut& b) const;
+  [[nodiscard]] std::vector<Cut> stops_in(const CutInterval& open,
+                                          const PlaneSide& plane) const;
+  [[nodiscard]] std::optional<Ends> state_at(const ExactPoint& x, bool between) const;
+  [[nodiscard]] bool only_ends(const Cut& a, const Cut& b,
+                               std::span<const CutInterval> ending) const;
+  void end_arc(const Cut& end);
+
+  const Silhouettes& g_;
+  const Scene& scene_;
+  const Star& star_;
+  const Ridge& ridge_;
+  VertexView& out_;
+  const Point& v_;
+  const Point& e0_;
+  const Point& e1_;
+  const LineThrough line_;
+  const ExactPoint from_;  // the vertex
+  const ExactPoint x0_, x1_;
+  std::vector<int> all_faces_;
+  std::vector<int> faces_;  // of the open part at hand
+  bool self_ = false;
+  bool share_facet_ = false;
+  bool inside_face_ = false;
+
+  // The arc at hand.
+  std::optional<Cut> begin_;
+  Ends ends_{};
+  std::optional<std::uint32_t> shared_;  // the node at begin_, where one arc has ended
+};
+
+DegenerateArcs::DegenerateArcs(const Silhouettes& g, const Star& star, const Ridge& ridge,
+                               std::span<const std::int32_t> meeting, VertexView& out)
+    : g_(g),
+      scene_(g.scene()),
+      star_(star),
+      ridge_(ridge),
+      out_(out),
+      v_(scene_.point(star.point)),
+      e0_(scene_.point(ridge.points[0])),
+      e1_(scene_.point(ridge.points[1])),
+      line_{e0_, e1_},
+      from_(exact_point(v_)),
+      x0_(exact_point(e0_)),
+      x1_(exact_point(e1_)),
+      all_faces_(meeting.begin(), meeting.end()) {
+  all_faces_.insert(all_faces_.end(), star.faces.begin(), star.faces.end());
+  sort_unique(all_faces_);
+  const auto own = g.objects_at(star.point);
+  self_ = own.size() == 1 && ridge.objects.size() == 1 && own[0] == ridge.objects[0];
+  // Lines that end in the plane of a face that vertex and edge are both on are left out.
+  share_facet_ = g.polygon() && share(ridge.all_facets, star.facets);
+  // A corner inside another face is grazed only by lines in that face's plane.
+  inside_face_ =
+      g.polygon() && star.in_plane_only &&
+      std::none_of(star.planes.begin(), star.planes.end(), [&](int f) {
+        return g.face_plane(f)(e0_) == Sign::Zero && g.face_plane(f)(e1_) == Sign::Zero;
+      });
+}
+
+ExactPoint DegenerateArcs::point_at(const Cut& c) const {
+  if (c.kind == CutKind::Start) return x0_;
+  if (c.kind == CutKind::End) return x1_;
+  return along(x0_, x1_, exact_parameter(scene_, line_, c));
+}
+
+// A point of the edge strictly between two cuts: in short numbers where doubles tell the
+// cuts apart.
+ExactPoint DegenerateArcs::point_between(const Cut& a, const Cut& b) const {
+  if (a.hi < b.lo) {
+    const double middle = a.hi + 0.5 * (b.lo - a.hi);
+    if (middle > a.hi && middle < b.lo) return along(x0_, x1_, Rational(middle));
+  }
+  const Rational s = exact_parameter(scene_, line_, a);
+  const Rational t = exact_parameter(scene_, line_, b);
+  return along(x0_, x1_, (s + t) / 2);
+}
+
+// The ends of the open part and all stops between them, in order.
+std::vector<Cut> DegenerateArcs::stops_in(const CutInterval& open,
+                                          const PlaneSide& plane) const {
+  const std::vector<Cut> cuts =
+      critical_cuts(g_, star_, e0_, e1_, plane, faces_, out_.positions);
+  std::vector<Cut> stops{open.from};
+  for (const Cut& c : cuts) {
+    hear_stop();
+    if (compare(scene_, line_, open.from, c) == Sign::Negative &&
+        compare(scene_, line_, c, open.to) == Sign::Negative) {
+      stops.push_back(c);
+    }
+  }
+  stops.push_back(open.to);
+  return stops;
+}
+
+// Which ends of the line to the point x of the edge are end contacts; nullopt when the
+// line is none of an arc.  `between`: x is no stop, and the contacts must be drawn, too.
+std::optional<Ends> DegenerateArcs::state_at(const ExactPoint& x, bool between) const {
+  const LineScan scan(scene_, faces_, from_, x);
+  const auto state = open_state(g_, ridge_, scan);
+  // Between a corner and an edge that others touch all of a segment may be inside.
+  if (between && state && (star_.touched || !star_.convex) && g_.borders_others(ridge_) &&
+      g_.in_material(along(from_, x, Rational(1, 2)))) {
+    return std::nullopt;
+  }
+  if (!state || !((*state)[0] || (*state)[1])) {
+    return inside_face_ ? std::nullopt : state;
+  }
+  if (share_facet_ || (inside_face_ && !(*state)[0])) return std::nullopt;
+  if (!between) return state;
+  const bool seen =
+      (!(*state)[0] || star_.convex || drawn_corner(g_, star_, Eye(x))) &&
+      (!(*state)[1] || !ridge_.touched || drawn_end(g_, ridge_, scan, true, Eye(from_)));
+  return seen ? state : std::nullopt;
+}
+
+// From a to b the viewpoint can only be an end contact.
+bool DegenerateArcs::only_ends(const Cut& a, const Cut& b,
+                               std::span<const CutInterval> ending) const {
+  return std::any_of(ending.begin(), ending.end(), [&](const CutInterval& e) {
+    return compare(scene_, line_, a, e.from) != Sign::Negative &&
+           compare(scene_, line_, e.to, b) != Sign::Negative;
+  });
+}
+
+// Adds the arc from begin_ to `end`, with its nodes.
+void DegenerateArcs::end_arc(const Cut& end) {
+  SkeletonArc arc;
+  arc.vertex = star_.point;
+  arc.edge = ridge_.edge;
+  arc.self = self_;
+  arc.ends = ends_;
+  arc.range = rounded_range(rounded_parameter(scene_, line_, *begin_),
+                            rounded_parameter(scene_, line_, end));
+  int k = 0;
+  for (const Cut& c : {*begin_, end}) {
+    const ExactPoint x = point_at(c);
+    const LineScan scan(scene_, faces_, from_, x);
+    arc.nodes[k] =
+        k == 0 && shared_ ? *shared_ : add_node_at(g_, v_, x, scan, ends_, out_);
+    ++k;
+  }
+  shared_ = arc.nodes[1];
+  out_.arcs.push_back(arc);
+  out_.intervals.push_back({*begin_, end});
+  out_.special_arcs.push_back(1);
+  begin_.reset();
+}
+
+void DegenerateArcs::add_arcs(const CutInterval& open, const PlaneSide& plane,
+                              std::span<const CutInterval> ending) {
+  faces_ = faces_towards(g_, v_, e0_, e1_, open, all_faces_);
+  const std::vector<Cut> stops = stops_in(open, plane);
+  begin_.reset();
+  ends_ = {};
+  shared_.reset();
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    hear_stop_now();
+    auto state = state_at(point_between(stops[i], stops[i + 1]), true);
+    const bool ends_only = only_ends(stops[i], stops[i + 1], ending);
+    if (state && ends_only && !(*state)[0]) state.reset();
+    if (begin_ && i > 0) {
+      // The arc goes on through a critical line that is free itself.
+      if (state != ends_ || state_at(point_at(stops[i]), false) != ends_)
+        end_arc(stops[i]);
+    }
+    if (!state) shared_.reset();
+    if (state && !begin_) {
+      begin_ = stops[i];
+      if (!g_.polygon()) shared_.reset();
+      ends_ = *state;
+    }
+  }
+  if (begin_) end_arc(stops.back());
 }
 
 }  // namespace
@@ -80,7 +257,7 @@ std::uint32_t contact_node(const Silhouettes& g, const Star& star, const Ridge& 
   const Point& v = scene.point(star.point);
   const LineThrough line{scene.point(ridge.points[0]), scene.point(ridge.points[1])};
   if (!g.polygon()) {
-    // All its contacts are listed later (find_further_contacts), and name it.
+    // All its contacts are listed later (find_further_contacts()), and name it.
     const Point x = line.from + cut.parameter() * (line.to - line.from);
     const std::uint32_t node =
         out.add_node(NodeKind::Degenerate, false, false, {}, {v, x}, arc_ends);
@@ -107,226 +284,8 @@ void add_degenerate_pair(const Silhouettes& g, const Star& star, const Ridge& ri
                          const PlaneSide& plane, const CutUnion& closed,
                          std::span<const CutInterval> ending,
                          std::span<const std::int32_t> meeting, VertexView& out) {
-  const Scene& scene = g.scene();
-  const Point& v = scene.point(star.point);
-  const Point& e0 = scene.point(ridge.points[0]);
-  const Point& e1 = scene.point(ridge.points[1]);
-  const LineThrough line{e0, e1};
-
-  std::vector<int> all_faces(meeting.begin(), meeting.end());
-  all_faces.insert(all_faces.end(), star.faces.begin(), star.faces.end());
-  sort_unique(all_faces);
-  std::vector<int> faces;  // of the open part at hand
-  const ExactPoint from = exact_point(v);
-  const ExactPoint x0 = exact_point(e0);
-  const ExactPoint x1 = exact_point(e1);
-  const auto point_at = [&](const Cut& c) {
-    if (c.kind == CutKind::Start) return x0;
-    if (c.kind == CutKind::End) return x1;
-    return along(x0, x1, exact_parameter(scene, line, c));
-  };
-  const auto point_between = [&](const Cut& a, const Cut& b) {
-    if (a.hi < b.lo) {
-      const double middle = a.hi + 0.5 * (b.lo - a.hi);
-      if (middle > a.hi && middle < b.lo) return along(x0, x1, Rational(middle));
-    }
-    const Rational s = exact_parameter(scene, line, a);
-    const Rational t = exact_parameter(scene, line, b);
-    return along(x0, x1, (s + t) / 2);
-  };
-  const auto own = g.objects_at(star.point);
-  const bool self =
-      own.size() == 1 && ridge.objects.size() == 1 && own[0] == ridge.objects[0];
-
-  // Lines that end in the plane of a face that vertex and edge are both on are left out.
-  const bool share_facet = g.polygon() && share(ridge.all_facets, star.facets);
-
-  // A corner inside another face is grazed only by lines in that face's plane.
-  const bool inside_face =
-      g.polygon() && star.in_plane_only &&
-      std::none_of(star.planes.begin(), star.planes.end(), [&](int f) {
-        return g.face_plane(f)(e0) == Sign::Zero && g.face_plane(f)(e1) == Sign::Zero;
-      });
-
-  for (const CutInterval& open : closed.complement()) {
-    faces = faces_towards(g, v, e0, e1, open, all_faces);
-    const std::vector<Cut> cuts =
-        critical_cuts(g, star, e0, e1, plane, faces, out.positions);
-    std::vector<Cut> stops{open.from};
-    for (const Cut& c : cuts) {
-      hear_stop();
-      if (compare(scene, line, open.from, c) == Sign::Negative &&
-          compare(scene, line, c, open.to) == Sign::Negative) {
-        stops.push_back(c);
-      }
-    }
-    stops.push_back(open.to);
-    std::optional<Cut> begin;
-    std::array<bool, 2> ends{};
-    std::optional<std::uint32_t> shared;  // the node at `begin`, where one arc has ended
-    // Between two critical positions (`between`): whether the contacts are drawn, too.
-    const auto state_at = [&](const ExactPoint& x,
-                              bool between) -> std::optional<std::array<bool, 2>> {
-      const LineScan scan(scene, faces, from, x);
-      const auto state = open_state(g, ridge, scan);
-      // Between a corner and an edge that others touch all of a segment may be inside.
-      if (between && state && (star.touched || !star.convex) && g.borders_others(ridge) &&
-          g.in_material(along(from, x, Rational(1, 2)))) {
-        return std::nullopt;
-      }
-      if (!state || !((*state)[0] || (*state)[1])) {
-        return inside_face ? std::nullopt : state;
-      }
-      if (share_facet || (inside_face && !(*state)[0])) return std::nullopt;
-      if (!between) return state;
-      const bool seen =
-          (!(*state)[0] || star.convex || drawn_corner(g, star, Eye(x))) &&
-          (!(*state)[1] || !ridge.touched || drawn_end(g, ridge, scan, true, Eye(from)));
-      return seen ? state : std::nullopt;
-    };
-    const auto end_arc = [&](const Cut& end) {
-      SkeletonArc arc;
-      arc.vertex = star.point;
-      arc.edge = ridge.edge;
-      arc.self = self;
-      arc.ends = ends;
-      arc.range = rounded_range(rounded_parameter(scene, line, *begin),
-                                rounded_parameter(scene, line, end));
-      int k = 0;
-      for (const Cut& c : {*begin, end}) {
-        const ExactPoint x = point_at(c);
-        const LineScan scan(scene, faces, from, x);
-        arc.nodes[k] = k == 0 && shared ? *shared : add_node_at(g, v, x, scan, ends, out);
-        ++k;
-      }
-      shared = arc.nodes[1];
-      out.arcs.push_back(arc);
-      out.intervals.push_back({*begin, end});
-      out.special_arcs.push_back(1);
-      begin.reset();
-    };
-    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-      hear_stop_now();
-      auto state = state_at(point_between(stops[i], stops[i + 1]), true);
-      const bool only_ends =
-          std::any_of(ending.begin(), ending.end(), [&](const CutInterval& e) {
-            return compare(scene, line, stops[i], e.from) != Sign::Negative &&
-                   compare(scene, line, e.to, stops[i + 1]) != Sign::Negative;
-          });
-      if (state && only_ends && !(*state)[0]) state.reset();
-      if (begin && i > 0) {
-        // The arc goes on through a critical line that is free itself.
-        if (state != ends || state_at(point_at(stops[i]), false) != ends)
-          end_arc(stops[i]);
-      }
-      if (!state) shared.reset();
-      if (state && !begin) {
-        begin = stops[i];
-        if (!g.polygon()) shared.reset();
-        ends = *state;
-      }
-    }
-    if (begin) end_arc(stops.back());
-  }
-}
-
-void find_further_contacts(const Silhouettes& g, const Star& star, LineProbe& probe,
-                           KnownLines& known, VertexView& view) {
-  const Scene& scene = g.scene();
-  const Point& v = scene.point(star.point);
-  const ExactPoint from = exact_point(v);
-  std::vector<std::uint8_t> done(view.nodes.size(), 0);
-  const auto may_touch_more = [&](const SkeletonNode& node, const Point& e0,
-                                  const Point& e1, const Cut& cut) {
-    const Point x = e0 + cut.parameter() * (e1 - e0);
-    // Half the enclosure, and the roundings of a difference, a product and a sum.
-    const double error =
-        (0.5 * (cut.hi - cut.lo) + 4 * kUnit) * (e1 - e0).cwiseAbs().sum() +
-        4 * kUnit * (e0.cwiseAbs().sum() + x.cwiseAbs().sum());
-    return probe.may_touch_more(
-        v, x, error, {view.pool.data() + node.first_generator, node.generator_count});
-  };
-  // FvE: the line leaves its face at a corner or, polygon mode, may be stopped on its way
-  // along the face by what touches it.
-  const auto may_end_along_face = [&](const SkeletonNode& node, const Point& e0,
-                                      const Point& e1) {
-    if (node.kind != NodeKind::FvE) return false;
-    const PlaneSide plane({v, e0, e1});
-    for (std::uint32_t k = 0; k < node.generator_count; ++k) {
-      const Generator& x = view.pool[node.first_generator + k];
-      if (x.kind != GeneratorKind::Face) continue;
-      if (g.polygon() && g.facet_touched(x.id)) return true;
-      for (const int f : scene.facets()[x.id].faces) {
-        for (const int w : scene.face_points(f)) {
-          if (w != star.point && plane(scene.point(w)) == Sign::Zero) return true;
-        }
-      }
-    }
-    return false;
-  };
-  const auto point_on = [&](std::size_t arc, const Cut& cut) {
-    const Edge& edge = scene.edges()[view.arcs[arc].edge];
-    const Point& e0 = scene.point(edge.points[0]);
-    const Point& e1 = scene.point(edge.points[1]);
-    return along(exact_point(e0), exact_point(e1), exact_parameter(scene, {e0, e1}, cut));
-  };
-  // `other`: the point of the arc on the other side of an EVE node, or the viewpoint.
-  const auto look_at = [&](std::uint32_t id, std::size_t arc, const Cut& cut,
-                           const ExactPoint* other) {
-    if (done[id]) return;
-    done[id] = 1;
-    SkeletonNode& node = view.nodes[id];
-    const Edge& edge = scene.edges()[view.arcs[arc].edge];
-    const Point& e0 = scene.point(edge.points[0]);
-    const Point& e1 = scene.point(edge.points[1]);
-    if (!view.special[id] && !may_end_along_face(node, e0, e1) &&
-        !may_touch_more(node, e0, e1, cut)) {
-      return;
-    }
-    hear_stop_now();
-    const ExactPoint x = point_on(arc, cut);
-    const ExactPoint& start = other ? *other : from;
-    LineQuestion question{.grazes = view.grazes[id] != 0};
-    const bool named = view.special[id] != VertexView::kUnnamed;
-    if (named) question.end = node.end;
-    question.between = !named;
-    LineContacts found = contacts_of_line(g, known, {start, x}, question);
-    NodeContacts& all = found.along;
-    if (!named) {
-      const bool keep = all.generators.empty() || all.kind != NodeKind::Degenerate;
-      name_node(view, id, keep ? found.between.value_or(NodeContacts{}) : NodeContacts{});
-      node.end = found.end;
-    }
-    if (all.generators.empty()) return;
-    if (all.kind == node.kind && all.kind != NodeKind::Degenerate) {
-      if (!g.polygon() || ends_one_arc(all.kind)) return;
-      const bool turned = view.pool[node.first_generator] != all.generators.front();
-      node.ends = {all.ends[turned ? 1 : 0], all.ends[turned ? 0 : 1]};
-      node.end = all.end;
-      return;
-    }
-    node.kind = all.kind;
-    node.self = all.self;
-    if (g.polygon() && !ends_one_arc(all.kind)) {
-      node.ends = all.ends;
-      node.end = all.end;
-    }
-    node.segment = all.segment;
-    view.lines[id] = std::move(all.line);
-    node.first_generator = static_cast<std::uint32_t>(view.pool.size());
-    node.generator_count = static_cast<std::uint32_t>(all.generators.size());
-    view.pool.insert(view.pool.end(), all.generators.begin(), all.generators.end());
-  };
-  for (std::size_t i = 0; i < view.arcs.size(); ++i) {
-    look_at(view.arcs[i].nodes[0], i, view.intervals[i].from, nullptr);
-    look_at(view.arcs[i].nodes[1], i, view.intervals[i].to, nullptr);
-  }
-  for (const VertexView::LineUp& eve : view.line_ups) {
-    // Where an outer contact ends the line it is not met from the vertex.
-    const bool ends = !view.grazes[eve.node];
-    const ExactPoint other = ends ? point_on(eve.other_arc, eve.other_cut) : ExactPoint{};
-    look_at(eve.node, eve.arc, eve.cut, ends ? &other : nullptr);
-  }
+  DegenerateArcs arcs(g, star, ridge, meeting, out);
+  for (const CutInterval& open : closed.complement()) arcs.add_arcs(open, plane, ending);
 }
 
 }  // namespace sightline::internal

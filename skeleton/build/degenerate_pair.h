@@ -17,8 +17,6 @@
 
 namespace sightline::internal {
 
-class KnownLines;
-
 /// Adds the arcs of one vertex and one ridge.  `plane` is theirs, `closed` holds parts
 /// known to be hidden or unsupported, `ending` those in which the viewpoint can only be
 /// an end contact (polygon mode), `faces` all faces that meet the triangle between.
@@ -34,13 +32,5 @@ std::uint32_t contact_node(const Silhouettes& silhouettes, const Star& star,
                            const Ridge& ridge, std::span<const std::int32_t> faces,
                            const Cut& cut, const std::array<bool, 2>& arc_ends,
                            VertexView& out);
-
-/// Looks at nodes of a view along their whole maximal free segments: those with more
-/// contacts than their kind has become Degenerate, with all generators listed from the
-/// end with the smaller one.  Looked at are nodes found among zero signs, and all that
-/// `probe` is not certain of: whatever else was asked for, so that a part names its nodes
-/// as the whole does.
-void find_further_contacts(const Silhouettes& silhouettes, const Star& star,
-                           LineProbe& probe, KnownLines& known, VertexView& view);
 
 }  // namespace sightline::internal

@@ -133,28 +133,39 @@ void EdgePairs::visit_pair(int i, int j, std::vector<FoundArc>& out) {
   visit_middles(turned, true, out);
 }
 
+namespace {
+
+PairCells::Linear on_edge(const PlaneValues& v) {
+  return {v.at0.value, v.at1.value, std::max(v.at0.error, v.at1.error),
+          v.sign0 == Sign::Zero, v.sign1 == Sign::Zero};
+}
+
+}  // namespace
+
 // Faces that may meet a segment between the two edges, and the middle edges among their
 // sides; false when there are none.
 bool EdgePairs::gather(const Outer& outer) {
-  const int i = outer.first;
-  const int j = outer.last;
-  const Ridge& first = g_.ridges()[i];
-  const Ridge& last = g_.ridges()[j];
+  const Ridge& first = g_.ridges()[outer.first];
+  const Ridge& last = g_.ridges()[outer.last];
+  // With a new stamp all that is kept by face, point, ridge or carrier is out of date.
   ++pair_stamp_;
   const Point& p0 = view_.end(0);
   const Point& p1 = view_.end(1);
   const Point& q0 = scene_.point(last.points[0]);
   const Point& q1 = scene_.point(last.points[1]);
-  const bool outer_through = selection_.goes_through(i) || selection_.goes_through(j);
+  // 1. A part through a group, with neither edge on it: some line between the two must
+  // come near the group.
+  const bool outer_through =
+      selection_.goes_through(outer.first) || selection_.goes_through(outer.last);
   if (!outer_through && !Shaft(p0, p1, q0, q1).may_meet(selection_.through_box) &&
       !selection_.may_reach(view_.box(), box_of(std::array<Point, 2>{q0, q1}))) {
     return false;
   }
+  // 2. The faces that may meet a segment between the edges, and the parts of the first
+  // edge: from some of them one face is known to hide all of the last edge.
   if (!view_.look(open_, q0, q1, first_parts_, faces_)) return false;
-  const auto on_edge = [](const PlaneValues& v) {
-    return PairCells::Linear{v.at0.value, v.at1.value, std::max(v.at0.error, v.at1.error),
-                             v.sign0 == Sign::Zero, v.sign1 == Sign::Zero};
-  };
+  // 3. The square of the two edges' parameters is divided into cells; a cell that one
+  // face hides, or where an edge is not grazed, has no line.
   cells_.begin({{on_edge(outer.first_planes[0]), on_edge(outer.first_planes[1])},
                 touched_on(first),
                 (p1 - p0).norm(),
@@ -163,41 +174,24 @@ bool EdgePairs::gather(const Outer& outer) {
                 touched_on(last),
                 (q1 - q0).norm(),
                 visible_range(last.buried)});
+  // Faces at the outer edges themselves are not met by lines that support there.
   others_.clear();
   for (const int face : faces_) {
     if (is_of(first, face) || is_of(last, face)) continue;
     others_.push_back(face);
-    const auto& [p, q] = planes_of(outer, face);
-    if (p.sign0 == p.sign1 && p.sign0 == q.sign0 && p.sign0 == q.sign1 &&
-        p.sign0 != Sign::Zero) {
-      continue;
-    }
-    const bool front_only = enters_only(face);
-    if (front_only && p.sign0 == Sign::Negative && p.sign1 == Sign::Negative) continue;
-    cell_sides_.clear();
-    for (const auto& side : carriers_.of_face(face)) {
-      cell_sides_.push_back(
-          {&form_of(outer, side.carrier), carriers_.ridge[side.carrier], side.forward});
-    }
-    cells_.add_face(face, occluder_key(g_, face), front_only, on_edge(p), on_edge(q),
-                    cell_sides_);
+    add_to_cells(outer, face);
   }
+  // 4. Sides of faces that cross a cell which stays open are middle edges, if they may be
+  // any: asked of many cells, answered once for a pair.
   const std::function<bool(int)> is_middle = [&](int m) {
-    if (middle_stamp_[m] == pair_stamp_) return middle_allowed_[m] != 0;
-    middle_stamp_[m] = pair_stamp_;
-    const Ridge& ridge = g_.ridges()[m];
-    const bool own = std::any_of(
-        ridge.objects.begin(), ridge.objects.end(), [&](const std::int32_t& o) {
-          return g_.convex_solid(o) && (share(std::span(&o, 1), first.objects) ||
-                                        share(std::span(&o, 1), last.objects));
-        });
-    middle_allowed_[m] =
-        !own && ridge.can_graze() && &ridge != &first && &ridge != &last &&
-        selection_.has(m) &&
-        (outer_through || selection_.by_lines || selection_.goes_through(m)) &&
-        !share_facet(ridge, first) && !share_facet(ridge, last);
+    if (middle_stamp_[m] != pair_stamp_) {
+      middle_stamp_[m] = pair_stamp_;
+      middle_allowed_[m] = may_be_middle(outer, m, outer_through);
+    }
     return middle_allowed_[m] != 0;
   };
+  // 5. Each part is divided into cells on its own.  That one face hides a part is
+  // remembered: of other edges near the last one it is likely to hide them, too.
   for (std::size_t k = 0; k < first_parts_.size(); ++k) {
     const EdgeView::Part& part = first_parts_[k];
     if (part.hidden_by >= 0) {
@@ -207,8 +201,45 @@ bool EdgePairs::gather(const Outer& outer) {
     const int hidden_by = cells_.divide(part.from, part.to, is_middle);
     if (hidden_by >= 0) view_.remember(k, hidden_by);
   }
+  // Where no middle edge crosses an open cell, no line meets three edges.
   cells_.finish();
   return !cells_.middles().empty();
+}
+
+// Tells the cells of a face that may meet a segment between the edges, unless both edges
+// lie on one side of its plane.
+void EdgePairs::add_to_cells(const Outer& outer, int face) {
+  const auto& [p, q] = planes_of(outer, face);
+  if (p.sign0 == p.sign1 && p.sign0 == q.sign0 && p.sign0 == q.sign1 &&
+      p.sign0 != Sign::Zero) {
+    return;
+  }
+  const bool front_only = enters_only(face);
+  if (front_only && p.sign0 == Sign::Negative && p.sign1 == Sign::Negative) return;
+  cell_sides_.clear();
+  for (const auto& side : carriers_.of_face(face)) {
+    cell_sides_.push_back(
+        {&form_of(outer, side.carrier), carriers_.ridge[side.carrier], side.forward});
+  }
+  cells_.add_face(face, occluder_key(g_, face), front_only, on_edge(p), on_edge(q),
+                  cell_sides_);
+}
+
+// Ridge m can be grazed between the two edges, as far as it is told without a line, and
+// is of the part.  `outer_through`: one of the outer edges is on the group to go through.
+bool EdgePairs::may_be_middle(const Outer& outer, int m, bool outer_through) const {
+  const Ridge& first = g_.ridges()[outer.first];
+  const Ridge& last = g_.ridges()[outer.last];
+  const Ridge& ridge = g_.ridges()[m];
+  const bool own =
+      std::any_of(ridge.objects.begin(), ridge.objects.end(), [&](const std::int32_t& o) {
+        return g_.convex_solid(o) && (share(std::span(&o, 1), first.objects) ||
+                                      share(std::span(&o, 1), last.objects));
+      });
+  return !own && ridge.can_graze() && &ridge != &first && &ridge != &last &&
+         selection_.has(m) &&
+         (outer_through || selection_.by_lines || selection_.goes_through(m)) &&
+         !share_facet(ridge, first) && !share_facet(ridge, last);
 }
 
 // A line that supports there does not meet the face elsewhere: of its convex solid, or in
@@ -350,33 +381,35 @@ void EdgePairs::add_arc(const Outer& outer, const EeeCurve& curve, int middle,
   out.push_back(std::move(found));
 }
 
-// The parts of the curve inside the square and of the middle edge, between the outer
-// ones, where all three support.
-void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
-                               const EeeCurve& curve, bool& degenerate) {
-  stretches_.clear();
-  constraints_.clear();
+// Appends what the lines of the curve must fulfil: a sign of `values`, which are linear
+// in s and change sign at `cut`.  True when they are zero all along.
+bool EdgePairs::add_constraint(const BoundedLinear& values, const CurveCut& cut,
+                               bool times_f0) {
+  Constraint c{values, cut, times_f0};
+  c.zero0 = values.sign0 == Sign::Zero;
+  c.zero1 = values.sign1 == Sign::Zero;
+  if (!values.constant()) {
+    // Zero at an end: inside it has the sign of the other.
+    if (c.values.sign0 == Sign::Zero) c.values.sign0 = c.values.sign1;
+    if (c.values.sign1 == Sign::Zero) c.values.sign1 = c.values.sign0;
+  }
+  if (!c.values.constant()) enclose_root(values, c.cut);
+  constraints_.push_back(c);
+  return c.values.sign0 == Sign::Zero;
+}
+
+// Two constraints have one sign, the same and all along.  A zero all along decides
+// nothing: those lines lie in the plane of a face.
+bool EdgePairs::same_everywhere(const Constraint& x, const Constraint& y) {
+  return x.values.constant() && y.values.constant() && x.values.sign0 == y.values.sign0 &&
+         x.values.sign0 != Sign::Zero;
+}
+
+// 0, 1: F0 and F1, of opposite signs inside the square.  False: nowhere so.
+bool EdgePairs::constrain_to_square(const Outer& outer, const EeeCurve& curve) {
   const auto& o = outer.points;
   const BoundedForm& f = curve.form();
   const Carrier& carrier = carriers_.all[curve.middle()];
-  bool vanishes = false;  // the last one added, all along
-  const auto add = [&](const BoundedLinear& values, CurveCutKind kind,
-                       std::int32_t feature, const std::array<std::int32_t, 3>& plane,
-                       bool times_f0) {
-    Constraint c{values, {kind, false, feature, plane, 0, 1}, times_f0};
-    c.zero0 = values.sign0 == Sign::Zero;
-    c.zero1 = values.sign1 == Sign::Zero;
-    if (!values.constant()) {
-      // Zero at an end: inside it has the sign of the other.
-      if (c.values.sign0 == Sign::Zero) c.values.sign0 = c.values.sign1;
-      if (c.values.sign1 == Sign::Zero) c.values.sign1 = c.values.sign0;
-    }
-    if (!c.values.constant()) enclose_root(values, c.cut);
-    vanishes = c.values.sign0 == Sign::Zero;
-    degenerate |= vanishes;
-    constraints_.push_back(c);
-  };
-  // 0, 1: F0 and F1, of opposite signs inside the square.
   for (int b = 0; b < 2; ++b) {
     BoundedLinear l{f.f[0][b], f.f[1][b], f.error, f.error, {}, {}};
     for (int a = 0; a < 2; ++a) {
@@ -388,57 +421,74 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
                      o.at(carrier.points[1]));
       }
     }
-    add(l, CurveCutKind::Far, o.q[b], {}, false);
-    if (vanishes) return;  // all lines through one end: no three edges
+    const bool vanishes = add_constraint(l, {CurveCutKind::Far, false, o.q[b], {}, 0, 1});
+    if (vanishes) return false;  // all lines through one end: no three edges
   }
-  // A zero all along decides nothing: those lines lie in the plane of a face.
-  const auto same_everywhere = [](const Constraint& x, const Constraint& y) {
-    return x.values.constant() && y.values.constant() &&
-           x.values.sign0 == y.values.sign0 && x.values.sign0 != Sign::Zero;
-  };
-  const auto differ = [](Sign x, Sign y) { return x != y || x == Sign::Zero; };
-  if (same_everywhere(constraints_[0], constraints_[1])) return;
-  // 2, 3: the middle edge's ends, on opposite sides of the plane of P(s) and the last
-  // edge.
+  return !same_everywhere(constraints_[0], constraints_[1]);
+}
+
+// 2, 3: the middle edge's ends, on opposite sides of the plane of P(s) and the last edge.
+// 4, 5: planes at the middle edge, at P(s).  False: the edge is nowhere grazed.
+bool EdgePairs::constrain_at_middle(const Outer& outer, const Ridge& middle,
+                                    bool& degenerate) {
   for (const std::int32_t w : middle.points) {
-    add(beside_last(outer, w), CurveCutKind::Middle, w, {}, false);
-    if (vanishes) return;
+    const bool vanishes =
+        add_constraint(beside_last(outer, w), {CurveCutKind::Middle, false, w, {}, 0, 1});
+    if (vanishes) return false;
   }
-  if (same_everywhere(constraints_[2], constraints_[3])) return;
-  // 4, 5: planes at the middle edge; 6, 7: at the last, at P(s).
-  const std::array<std::int32_t, 3> middle_planes[2] = {
-      {middle.points[1], middle.points[0], middle.thirds[0]},
-      {middle.points[0], middle.points[1], middle.thirds[1]}};
-  add(linear(plane_values(middle.a, o.at(o.p[0]), o.at(o.p[1]))), CurveCutKind::OnPlane,
-      middle.facets[0], middle_planes[0], false);
-  add(linear(plane_values(middle.b, o.at(o.p[0]), o.at(o.p[1]))), CurveCutKind::OnPlane,
-      middle.facets[1], middle_planes[1], false);
-  if (same_everywhere(constraints_[4], constraints_[5])) return;
+  if (same_everywhere(constraints_[2], constraints_[3])) return false;
+  const auto& o = outer.points;
+  for (int k = 0; k < 2; ++k) {
+    const PlaneSide& plane = k == 0 ? middle.a : middle.b;
+    degenerate |= add_constraint(linear(plane_values(plane, o.at(o.p[0]), o.at(o.p[1]))),
+                                 plane_cut_at(middle, k, CurveCutKind::OnPlane));
+  }
+  return !same_everywhere(constraints_[4], constraints_[5]);
+}
+
+// 6, 7: planes at the last edge, at P(s).  False: the edge is nowhere touched.
+bool EdgePairs::constrain_at_last(const Outer& outer, bool& degenerate) {
   const Ridge& last = g_.ridges()[outer.last];
   for (int k = 0; k < 2; ++k) {
-    add(linear(outer.last_planes[k]), CurveCutKind::OnPlane, last.facets[k],
-        {last.points[1 - k], last.points[k], last.thirds[k]}, false);
+    degenerate |= add_constraint(linear(outer.last_planes[k]),
+                                 plane_cut_at(last, k, CurveCutKind::OnPlane));
   }
-  if (same_everywhere(constraints_[6], constraints_[7])) {
-    const Sign side = constraints_[6].values.sign0;
-    if (last.contact(side, side) == EdgeContact::None) return;
-  }
-  // 8, 9: planes at the first edge, at Q(t(s)).
+  if (!same_everywhere(constraints_[6], constraints_[7])) return true;
+  const Sign side = constraints_[6].values.sign0;
+  return last.contact(side, side) != EdgeContact::None;
+}
+
+// 8, 9: planes at the first edge, at Q(t(s)).
+void EdgePairs::constrain_at_first(const Outer& outer, const EeeCurve& curve,
+                                   bool& degenerate) {
   const Ridge& first = g_.ridges()[outer.first];
   for (int k = 0; k < 2; ++k) {
     const PlaneValues& v = outer.first_planes[k];
-    const std::array<std::int32_t, 3> plane{first.points[1 - k], first.points[k],
-                                            first.thirds[k]};
+    const CurveCut cut = plane_cut_at(first, k, CurveCutKind::OnFirst);
     if (v.sign0 == v.sign1) {
       // Of one sign all along the last edge, whatever t.
-      add(linear(v), CurveCutKind::OnFirst, first.facets[k], plane, false);
+      degenerate |= add_constraint(linear(v), cut);
     } else {
-      add(curve.at_last_edge(v.at0, v.at1, plane), CurveCutKind::OnFirst, first.facets[k],
-          plane, true);
+      degenerate |=
+          add_constraint(curve.at_last_edge(v.at0, v.at1, cut.plane), cut, true);
     }
   }
-  const Sign beside = orient3d(o.at(o.q[0]), o.at(o.q[1]), o.at(carrier.points[0]),
-                               o.at(carrier.points[1]));
+}
+
+// The parts of the curve inside the square and of the middle edge, between the outer
+// ones, where all three support.
+void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
+                               const EeeCurve& curve, bool& degenerate) {
+  stretches_.clear();
+  constraints_.clear();
+  // 1. The ten conditions that a line of the curve must fulfil.  Each is a sign of a
+  // polynomial that is linear in s, so that it changes once at most.
+  if (!constrain_to_square(outer, curve)) return;
+  if (!constrain_at_middle(outer, middle, degenerate)) return;
+  if (!constrain_at_last(outer, degenerate)) return;
+  constrain_at_first(outer, curve, degenerate);
+  // 2. Those that change, in the order of their cuts along the curve; the others have
+  // their sign everywhere.
   std::array<const Constraint*, 10> order;
   int count = 0;
   for (const Constraint& c : constraints_) {
@@ -448,24 +498,42 @@ void EdgePairs::find_stretches(const Outer& outer, const Ridge& middle,
             [&](const Constraint* x, const Constraint* y) {
               return curve.compare(x->cut, y->cut) == Sign::Negative;
             });
+  // 3. All signs at the curve's start; from one cut to the next they stay.
   std::array<Sign, 10> sign;
   for (int k = 0; k < 10; ++k) sign[k] = constraints_[k].values.sign0;
+  const Ridge& first = g_.ridges()[outer.first];
+  const Ridge& last = g_.ridges()[outer.last];
+  const auto& o = outer.points;
+  const Carrier& carrier = carriers_.all[curve.middle()];
+  // The middle contact lies between the outer ones, not beyond one of them, iff F0 has
+  // the sign of orient3d(Q0, Q1, middle edge): see EeeCurve::order_at().
+  const Sign beside = orient3d(o.at(o.q[0]), o.at(o.q[1]), o.at(carrier.points[0]),
+                               o.at(carrier.points[1]));
+  // A zero all along is in the plane of a face: left to the contacts of single lines.
+  const auto differ = [](Sign x, Sign y) { return x != y || x == Sign::Zero; };
+  // 4. Along the curve: a stretch wherever all ten are right, and the two cuts differ.
   CurveCut from = curve_start();
   for (int k = 0; k <= count; ++k) {
     const CurveCut to = k < count ? order[k]->cut : curve_end();
     const auto at_first = [&](int c) {
       return constraints_[c].times_f0 ? sign[c] * sign[0] : sign[c];
     };
+    // The outer edges may be end contacts, too; the middle one must be grazed.
     const EdgeContact last_contact = last.contact(sign[6], sign[7]);
     const EdgeContact first_contact = first.contact(at_first(8), at_first(9));
+    // Opposite signs: of F0 and F1, of the middle edge's ends, of the planes at that
+    // edge.
     if (sign[0] != sign[1] && sign[2] != sign[3] && differ(sign[4], sign[5]) &&
         last_contact != EdgeContact::None && first_contact != EdgeContact::None &&
         sign[0] == beside && curve.compare(from, to) == Sign::Negative) {
+      // The sign of F0 goes with it: that of F0 - F1, which blockers are asked by.
       stretches_.push_back(
           {{from, to},
            sign[0],
            {first_contact == EdgeContact::End, last_contact == EdgeContact::End}});
     }
+    // Beyond the cut one sign has changed.  Cuts that coincide change one after the
+    // other, with an empty stretch between.
     if (k == count) break;
     const auto c = static_cast<std::size_t>(order[k] - constraints_.data());
     sign[c] = constraints_[c].values.sign1;

@@ -84,6 +84,8 @@ class EdgePairs {
   void visit_pair(int i, int j, std::vector<FoundArc>& out);
   [[nodiscard]] static bool share_facet(const Ridge& a, const Ridge& b);
   [[nodiscard]] bool gather(const Outer& outer);
+  void add_to_cells(const Outer& outer, int face);
+  [[nodiscard]] bool may_be_middle(const Outer& outer, int m, bool outer_through) const;
   [[nodiscard]] bool is_of(const Ridge& ridge, int face) const;
   [[nodiscard]] bool enters_only(int face) const;
   [[nodiscard]] const std::array<PlaneValues, 2>& planes_of(const Outer& outer, int face);
@@ -95,6 +97,24 @@ class EdgePairs {
     Sign f0;
     std::array<bool, 2> ends;  // polygon mode: the outer contacts are end contacts
   };
+  struct Constraint {
+    BoundedLinear values;
+    CurveCut cut;
+    bool times_f0 = false;              // its sign is that of the values times that of F0
+    bool zero0 = false, zero1 = false;  // at the ends
+  };
+  bool add_constraint(const BoundedLinear& values, const CurveCut& cut,
+                      bool times_f0 = false);
+  [[nodiscard]] static bool same_everywhere(const Constraint& x, const Constraint& y);
+  // In the k-th plane at an edge; not yet enclosed.
+  [[nodiscard]] static CurveCut plane_cut_at(const Ridge& r, int k, CurveCutKind kind) {
+    return {kind, false, r.facets[k], {r.points[1 - k], r.points[k], r.thirds[k]}, 0, 1};
+  }
+  [[nodiscard]] bool constrain_to_square(const Outer& outer, const EeeCurve& curve);
+  [[nodiscard]] bool constrain_at_middle(const Outer& outer, const Ridge& middle,
+                                         bool& degenerate);
+  [[nodiscard]] bool constrain_at_last(const Outer& outer, bool& degenerate);
+  void constrain_at_first(const Outer& outer, const EeeCurve& curve, bool& degenerate);
   void find_stretches(const Outer& outer, const Ridge& middle, const EeeCurve& curve,
                       bool& degenerate);
   void find_blocked(const Outer& outer, const Ridge& middle, const EeeCurve& curve,
@@ -136,11 +156,24 @@ class EdgePairs {
                                    int middle) const;
   [[nodiscard]] std::vector<Stretch> free_parts(const Outer& outer, const EeeCurve& curve,
                                                 const Stretch& open);
+  [[nodiscard]] std::vector<CurveCut> stops_in(const Outer& outer, const EeeCurve& curve,
+                                               const CurveInterval& open,
+                                               std::span<const int> faces);
+  template <class Add>
+  void add_plane_stops(const Outer& outer, const EeeCurve& curve, int face,
+                       const Add& add) const;
+  [[nodiscard]] std::optional<std::array<bool, 2>> state_of(
+      const Outer& outer, const std::optional<std::array<ExactPoint, 2>>& line,
+      std::span<const int> faces, const Stretch& stretch, bool drawn) const;
   [[nodiscard]] std::vector<Rational> in_plane_stops(const Outer& outer,
                                                      const EeeCurve& curve,
                                                      std::span<const int> faces) const;
   [[nodiscard]] FoundNode node_at(const Outer& outer, const EeeCurve& curve, int middle,
                                   const CurveCut& cut, const Stretch& stretch);
+  void name_by_cut(const Outer& outer, const EeeCurve& curve, int middle,
+                   const CurveCut& cut, FoundNode& node);
+  [[nodiscard]] bool is_single(const Outer& outer, const EeeCurve& curve,
+                               int fourth) const;
   [[nodiscard]] std::array<bool, 2> ends_at(const Outer& outer, const EeeCurve& curve,
                                             const CurveCut& cut,
                                             const Stretch& stretch) const;
@@ -150,6 +183,12 @@ class EdgePairs {
                                     const CurveCut& cut, int corner, Sign f0) const;
   [[nodiscard]] bool may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
                                     const CurveCut& cut);
+  [[nodiscard]] bool corner_may_touch_more(const Outer& outer, const EeeCurve& curve,
+                                           const CurveCut& cut) const;
+  [[nodiscard]] bool may_meet_face_corner(const Outer& outer, const EeeCurve& curve,
+                                          const CurveCut& cut);
+  [[nodiscard]] bool may_meet_other_edge(const Outer& outer, const EeeCurve& curve,
+                                         int middle, const CurveCut& cut);
   [[nodiscard]] bool any_touched(std::span<const Generator> edges) const;
   void list_contacts(const Outer& outer, const EeeCurve& curve, const CurveCut& cut,
                      FoundNode& node);
@@ -188,12 +227,6 @@ class EdgePairs {
 
   // The curve at hand.
   std::vector<std::int32_t> blockers_;
-  struct Constraint {
-    BoundedLinear values;
-    CurveCut cut;
-    bool times_f0 = false;              // its sign is that of the values times that of F0
-    bool zero0 = false, zero1 = false;  // at the ends
-  };
   std::vector<Constraint> constraints_;
   std::vector<Stretch> stretches_;
   std::vector<CurveInterval> closed_, parts_, next_;

@@ -14,10 +14,11 @@
 
 namespace sightline::internal {
 
-std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
-                                                      const EeeCurve& curve,
-                                                      const Stretch& stretch) {
-  const CurveInterval& open = stretch.part;
+// The ends of an open part of the curve and all critical positions between them, in
+// order: where the line lies in the plane of one of the faces, or meets a side of one.
+std::vector<CurveCut> EdgePairs::stops_in(const Outer& outer, const EeeCurve& curve,
+                                          const CurveInterval& open,
+                                          std::span<const int> faces) {
   std::vector<CurveCut> stops;
   const auto add = [&](const CurveCut& cut) {
     if (curve.compare(open.from, cut) == Sign::Negative &&
@@ -25,31 +26,12 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
       stops.push_back(cut);
     }
   };
-  const auto& o = outer.points;
   const int own[] = {carriers_.of_ridge[outer.first], curve.middle(),
                      carriers_.of_ridge[outer.last]};
   ++node_stamp_;
-  const std::vector<int> faces = view_.all_faces();
   for (const int face : faces) {
     hear_stop();
-    const PlaneSide& plane = g_.face_plane(face);
-    const std::array<std::int32_t, 3> points = plane_points(scene_, face);
-    const int facet = scene_.faces()[face].facet;
-    const PlaneValues p = plane_values(plane, o.at(o.p[0]), o.at(o.p[1]));
-    if (p.sign0 == -p.sign1 && p.sign0 != Sign::Zero) {
-      CurveCut cut{CurveCutKind::OnPlane, false, facet, points, 0, 1};
-      enclose_root({p.at0.value, p.at1.value, p.at0.error, p.at1.error, {}, {}}, cut);
-      add(cut);
-    }
-    const PlaneValues q = plane_values(plane, o.at(o.q[0]), o.at(o.q[1]));
-    if (q.sign0 == -q.sign1 && q.sign0 != Sign::Zero) {
-      const BoundedLinear l = curve.at_last_edge(q.at0, q.at1, points);
-      if (l.sign0 == -l.sign1 && l.sign0 != Sign::Zero) {
-        CurveCut cut{CurveCutKind::OnFar, false, facet, points, 0, 1};
-        enclose_root(l, cut);
-        add(cut);
-      }
-    }
+    add_plane_stops(outer, curve, face, add);
     for (const auto& side : carriers_.of_face(face)) {
       if (node_stamps_[side.carrier] == node_stamp_) continue;
       node_stamps_[side.carrier] = node_stamp_;
@@ -78,34 +60,68 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
               stops.end());
   stops.insert(stops.begin(), open.from);
   stops.push_back(open.to);
+  return stops;
+}
 
-  // Which outer contacts are end contacts; nullopt when the line is not free.
-  using State = std::optional<std::array<bool, 2>>;
+// Where the line's contact with the first edge, or with the last, lies in the plane of
+// the face.
+template <class Add>
+void EdgePairs::add_plane_stops(const Outer& outer, const EeeCurve& curve, int face,
+                                const Add& add) const {
+  const auto& o = outer.points;
+  const PlaneSide& plane = g_.face_plane(face);
+  const PlaneValues p = plane_values(plane, o.at(o.p[0]), o.at(o.p[1]));
+  if (p.sign0 == -p.sign1 && p.sign0 != Sign::Zero) {
+    add(plane_cut({p.at0.value, p.at1.value, p.at0.error, p.at1.error, {}, {}},
+                  CurveCutKind::OnPlane, face));
+  }
+  const PlaneValues q = plane_values(plane, o.at(o.q[0]), o.at(o.q[1]));
+  if (q.sign0 == -q.sign1 && q.sign0 != Sign::Zero) {
+    const BoundedLinear l = at_last_edge(curve, q, face);
+    if (l.sign0 == -l.sign1 && l.sign0 != Sign::Zero) {
+      add(plane_cut(l, CurveCutKind::OnFar, face));
+    }
+  }
+}
+
+// Which outer contacts of a line are end contacts; nullopt when the line is not free.
+// `drawn`: and when an end contact of it is not drawn.  `faces`: all that may block.
+std::optional<std::array<bool, 2>> EdgePairs::state_of(
+    const Outer& outer, const std::optional<std::array<ExactPoint, 2>>& line,
+    std::span<const int> faces, const Stretch& stretch, bool drawn) const {
+  if (!line) return std::nullopt;
   const Ridge& first = g_.ridges()[outer.first];
   const Ridge& last = g_.ridges()[outer.last];
-  const auto state_of = [&](const std::optional<std::array<ExactPoint, 2>>& line,
-                            bool drawn) -> State {
-    if (!line) return std::nullopt;
-    const LineScan scan(scene_, faces, (*line)[0], (*line)[1]);
-    if (!g_.polygon()) return is_free(g_, scan) ? State(stretch.ends) : std::nullopt;
-    const State ends = blocked_ends(g_, scan);
-    const bool possible = ends && ((*ends)[0] ? first.can_end() : first.can_graze()) &&
-                          ((*ends)[1] ? last.can_end() : last.can_graze());
-    if (!possible) return std::nullopt;
-    const bool seen = !drawn || ((!(*ends)[0] || !first.touched ||
-                                  drawn_end(g_, first, scan, false, Eye((*line)[1]))) &&
-                                 (!(*ends)[1] || !last.touched ||
-                                  drawn_end(g_, last, scan, true, Eye((*line)[0]))));
-    return seen ? ends : std::nullopt;
-  };
+  const LineScan scan(scene_, faces, (*line)[0], (*line)[1]);
+  if (!g_.polygon()) {
+    return is_free(g_, scan) ? std::optional(stretch.ends) : std::nullopt;
+  }
+  const auto ends = blocked_ends(g_, scan);
+  const bool possible = ends && ((*ends)[0] ? first.can_end() : first.can_graze()) &&
+                        ((*ends)[1] ? last.can_end() : last.can_graze());
+  if (!possible) return std::nullopt;
+  const bool seen = !drawn || ((!(*ends)[0] || !first.touched ||
+                                drawn_end(g_, first, scan, false, Eye((*line)[1]))) &&
+                               (!(*ends)[1] || !last.touched ||
+                                drawn_end(g_, last, scan, true, Eye((*line)[0]))));
+  return seen ? ends : std::nullopt;
+}
+
+std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
+                                                      const EeeCurve& curve,
+                                                      const Stretch& stretch) {
+  const std::vector<int> faces = view_.all_faces();
+  const std::vector<CurveCut> stops = stops_in(outer, curve, stretch.part, faces);
+  const Ridge& first = g_.ridges()[outer.first];
+  const Ridge& last = g_.ridges()[outer.last];
   std::vector<Stretch> free;
   std::optional<CurveCut> begin;
-  State state;  // from `begin` on
+  std::optional<std::array<bool, 2>> state;  // from `begin` on
   for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
     hear_stop_now();
     const auto s = curve.between(stops[i], stops[i + 1]);
     const auto line = s ? curve.points_at(*s) : std::nullopt;
-    State here = state_of(line, true);
+    auto here = state_of(outer, line, faces, stretch, true);
     // Between edges that others touch all of a segment may be inside.
     if (here && g_.borders_others(first) && g_.borders_others(last) &&
         g_.in_material(along((*line)[0], (*line)[1], Rational(1, 2)))) {
@@ -114,7 +130,8 @@ std::vector<EdgePairs::Stretch> EdgePairs::free_parts(const Outer& outer,
     if (begin && i > 0) {
       // The arc goes on through a critical line that is free itself.
       const auto stop = curve.points_at(stops[i]);
-      if (here != state || (stop && state_of(stop, false) != state)) {
+      if (here != state ||
+          (stop && state_of(outer, stop, faces, stretch, false) != state)) {
         free.push_back({{*begin, stops[i]}, stretch.f0, *state});
         begin.reset();
       }

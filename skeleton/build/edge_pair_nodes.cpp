@@ -53,6 +53,12 @@ RoundedLine rounded_line(const OuterPair& o, const EeeCurve& curve, const CurveC
           std::max(slack(cut.lo, cut.hi, p0, p1), slack(t[0], t[1], q0, q1))};
 }
 
+// Two different cuts are at one position.
+bool coincide(const EeeCurve& curve, const CurveCut& a, const CurveCut& b) {
+  return a.hi >= b.lo && a.lo <= b.hi && !a.same_as(b) &&
+         curve.compare(a, b) == Sign::Zero;
+}
+
 // Where a line that meets p + s (q - p), and is not parallel to it, does so.
 Rational parameter_on(const Point& p, const Point& q,
                       const std::array<ExactPoint, 2>& line) {
@@ -131,8 +137,10 @@ Sign EdgePairs::side_of_corner(const Outer& outer, const EeeCurve& curve,
   return order == Sign::Zero ? Sign::Zero : order == Sign::Negative ? p.sign0 : p.sign1;
 }
 
-FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int middle,
-                             const CurveCut& cut, const Stretch& stretch) {
+// Names a node by what cuts the curve there: its kind and its generators, from the first
+// edge to the last; VEE begins with its vertex.
+void EdgePairs::name_by_cut(const Outer& outer, const EeeCurve& curve, int middle,
+                            const CurveCut& cut, FoundNode& node) {
   const auto edge = [&](int ridge) {
     return Generator{GeneratorKind::Edge, g_.ridges()[ridge].edge};
   };
@@ -140,8 +148,7 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
   const Generator first = edge(outer.first);
   const Generator between = edge(middle);
   const Generator last = edge(outer.last);
-  FoundNode node;
-  node.grazes = !stretch.ends[0] && !stretch.ends[1];
+  const Generator face{GeneratorKind::Face, cut.feature};
   const auto set = [&](NodeKind kind, std::initializer_list<Generator> generators) {
     node.kind = kind;
     node.count = static_cast<std::uint8_t>(generators.size());
@@ -149,64 +156,64 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
   };
   switch (cut.kind) {
     case CurveCutKind::Given:
-      set(NodeKind::Degenerate, {first, between, last});
-      break;
+      return set(NodeKind::Degenerate, {first, between, last});
     case CurveCutKind::Start:
-      set(NodeKind::VEE, {vertex(outer.points.p[0]), between, last});
-      break;
+      return set(NodeKind::VEE, {vertex(outer.points.p[0]), between, last});
     case CurveCutKind::End:
-      set(NodeKind::VEE, {vertex(outer.points.p[1]), between, last});
-      break;
+      return set(NodeKind::VEE, {vertex(outer.points.p[1]), between, last});
     case CurveCutKind::Far:
-      set(NodeKind::VEE, {vertex(cut.feature), between, first});
-      break;
+      return set(NodeKind::VEE, {vertex(cut.feature), between, first});
     case CurveCutKind::Middle:
-      set(NodeKind::EVE, {first, vertex(cut.feature), last});
-      break;
+      return set(NodeKind::EVE, {first, vertex(cut.feature), last});
     case CurveCutKind::OnFirst:
-      set(NodeKind::FEE, {{GeneratorKind::Face, cut.feature}, between, last});
-      break;
+      return set(NodeKind::FEE, {face, between, last});
     case CurveCutKind::OnPlane: {
-      const Generator face{GeneratorKind::Face, cut.feature};
+      // The plane is that of a face at the middle edge, at the last, or one that the
+      // first edge enters.
       const auto& at_middle = g_.ridges()[middle].facets;
       const auto& at_last = g_.ridges()[outer.last].facets;
       if (cut.feature == at_middle[0] || cut.feature == at_middle[1]) {
-        set(NodeKind::FEE, {first, face, last});
-      } else if (cut.feature == at_last[0] || cut.feature == at_last[1]) {
-        set(NodeKind::FEE, {first, between, face});
-      } else {
-        set(NodeKind::Pierce, {first, face, between, last});
+        return set(NodeKind::FEE, {first, face, last});
       }
-      break;
+      if (cut.feature == at_last[0] || cut.feature == at_last[1]) {
+        return set(NodeKind::FEE, {first, between, face});
+      }
+      return set(NodeKind::Pierce, {first, face, between, last});
     }
     case CurveCutKind::OnFar:
-      set(NodeKind::Pierce, {first, between, {GeneratorKind::Face, cut.feature}, last});
-      break;
+      return set(NodeKind::Pierce, {first, between, face, last});
     case CurveCutKind::Crossing: {
       const int r = carriers_.ridge[cut.feature];
       const Generator fourth =
           r >= 0 ? edge(r)
                  : Generator{GeneratorKind::Edge, carriers_.all[cut.feature].edge};
-      // Where two of them are coplanar only one line meets all four.
-      const auto coplanar = [&](const std::array<std::int32_t, 2>& e, int carrier) {
-        const auto& g = carriers_.all[carrier].points;
-        const auto& o = outer.points;
-        return orient3d(o.at(e[0]), o.at(e[1]), o.at(g[0]), o.at(g[1])) == Sign::Zero;
-      };
-      const bool single = coplanar(outer.points.p, curve.middle()) ||
-                          coplanar(outer.points.p, cut.feature) ||
-                          coplanar(outer.points.q, cut.feature);
+      const bool fourth_first =
+          curve.order_at(cut, cut.feature, form_of(outer, cut.feature)) == Sign::Positive;
+      set(NodeKind::EEEE, {first, fourth_first ? fourth : between,
+                           fourth_first ? between : fourth, last});
+      const bool single = is_single(outer, curve, cut.feature);
       node.rising = cut.rising && !single;
-      if (curve.order_at(cut, cut.feature, form_of(outer, cut.feature)) ==
-          Sign::Positive) {
-        set(NodeKind::EEEE, {first, fourth, between, last});
-      } else {
-        set(NodeKind::EEEE, {first, between, fourth, last});
-      }
       node.elsewhere = any_touched({node.generators.data(), node.count});
-      break;
     }
   }
+}
+
+// One line at most meets the curve's three edges and a fourth: two of them are coplanar.
+bool EdgePairs::is_single(const Outer& outer, const EeeCurve& curve, int fourth) const {
+  const auto coplanar = [&](const std::array<std::int32_t, 2>& e, int carrier) {
+    const auto& g = carriers_.all[carrier].points;
+    const auto& o = outer.points;
+    return orient3d(o.at(e[0]), o.at(e[1]), o.at(g[0]), o.at(g[1])) == Sign::Zero;
+  };
+  return coplanar(outer.points.p, curve.middle()) || coplanar(outer.points.p, fourth) ||
+         coplanar(outer.points.q, fourth);
+}
+
+FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int middle,
+                             const CurveCut& cut, const Stretch& stretch) {
+  FoundNode node;
+  node.grazes = !stretch.ends[0] && !stretch.ends[1];
+  name_by_cut(outer, curve, middle, cut, node);
   const double s = cut.parameter();
   const double t = curve.last_parameter(s);
   const auto& o = outer.points;
@@ -244,10 +251,6 @@ FoundNode EdgePairs::node_at(const Outer& outer, const EeeCurve& curve, int midd
 // convex solid that stands alone.
 bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int middle,
                                const CurveCut& cut) {
-  const auto coincides = [&](const CurveCut& other) {
-    return other.hi >= cut.lo && other.lo <= cut.hi && !other.same_as(cut) &&
-           curve.compare(other, cut) == Sign::Zero;
-  };
   if (cut.kind == CurveCutKind::Given) return true;
   // Where edges of touching solids cross, a line meets both at one point.
   for (const int ridge :
@@ -259,52 +262,69 @@ bool EdgePairs::may_touch_more(const Outer& outer, const EeeCurve& curve, int mi
   for (const Constraint& c : constraints_) {
     if (c.values.constant() && c.values.sign0 == Sign::Zero) return true;
     if (cut.kind == CurveCutKind::Start ? c.zero0
-        : cut.kind == CurveCutKind::End ? c.zero1
-                                        : !c.values.constant() && coincides(c.cut)) {
+        : cut.kind == CurveCutKind::End
+            ? c.zero1
+            : !c.values.constant() && coincide(curve, c.cut, cut)) {
       return true;
     }
   }
+  return corner_may_touch_more(outer, curve, cut) ||
+         may_meet_face_corner(outer, curve, cut) ||
+         may_meet_other_edge(outer, curve, middle, cut);
+}
+
+// At a cut by a corner: that corner is not that of a convex solid that stands alone, or
+// the line lies in the plane of a face there.
+bool EdgePairs::corner_may_touch_more(const Outer& outer, const EeeCurve& curve,
+                                      const CurveCut& cut) const {
   const std::int32_t corner =
       cut.kind == CurveCutKind::Start ? outer.points.p[0]
       : cut.kind == CurveCutKind::End ? outer.points.p[1]
       : cut.kind == CurveCutKind::Far || cut.kind == CurveCutKind::Middle ? cut.feature
                                                                           : -1;
-  if (corner >= 0) {
-    const Star& star = g_.stars()[g_.star_of_point(corner)];
-    if (!star.convex || star.touched || star.in_plane_only) return true;
-    // In the plane of a face there.
-    for (const int face : star.faces) {
-      if (side_of_corner(outer, curve, cut, face, Sign::Positive) == Sign::Zero)
-        return true;
-    }
+  if (corner < 0) return false;
+  const Star& star = g_.stars()[g_.star_of_point(corner)];
+  if (!star.convex || star.touched || star.in_plane_only) return true;
+  return std::any_of(star.faces.begin(), star.faces.end(), [&](int face) {
+    return side_of_corner(outer, curve, cut, face, Sign::Positive) == Sign::Zero;
+  });
+}
+
+// At a cut by a face's plane: the line meets a corner of the face, or what touches it.
+bool EdgePairs::may_meet_face_corner(const Outer& outer, const EeeCurve& curve,
+                                     const CurveCut& cut) {
+  if (cut.kind != CurveCutKind::OnFirst && cut.kind != CurveCutKind::OnPlane) {
+    return false;
   }
-  if (cut.kind == CurveCutKind::OnFirst || cut.kind == CurveCutKind::OnPlane) {
-    if (g_.facet_touched(cut.feature)) return true;
-    // A corner w of the face is on the line iff it is in the plane of P(s) and the last
-    // edge, or that of P(s) and the middle edge where the face is at the last one.
-    const auto& at_last = g_.ridges()[outer.last].facets;
-    const bool by_middle = cut.feature == at_last[0] || cut.feature == at_last[1];
-    const auto& m = carriers_.all[curve.middle()].points;
-    for (const int face : scene_.facets()[cut.feature].faces) {
-      for (const int w : scene_.face_points(face)) {
-        BoundedLinear l{};
-        if (by_middle) {
-          const PlaneSide plane(
-              {scene_.point(w), scene_.point(m[0]), scene_.point(m[1])});
-          const auto& o = outer.points;
-          const PlaneValues v = plane_values(plane, o.at(o.p[0]), o.at(o.p[1]));
-          l = {v.at0.value, v.at1.value, v.at0.error, v.at1.error, v.sign0, v.sign1};
-        } else {
-          l = beside_last(outer, w);
-        }
-        if (l.constant() && l.sign0 != Sign::Zero) continue;
-        CurveCut at{
-            by_middle ? CurveCutKind::Far : CurveCutKind::Middle, false, w, {}, 0, 1};
-        if (!l.constant()) enclose_root(l, at);
-        if (l.constant() || coincides(at)) return true;
+  if (g_.facet_touched(cut.feature)) return true;
+  // A corner w of the face is on the line iff it is in the plane of P(s) and the last
+  // edge, or that of P(s) and the middle edge where the face is at the last one.
+  const auto& at_last = g_.ridges()[outer.last].facets;
+  const bool by_middle = cut.feature == at_last[0] || cut.feature == at_last[1];
+  const auto& m = carriers_.all[curve.middle()].points;
+  for (const int face : scene_.facets()[cut.feature].faces) {
+    for (const int w : scene_.face_points(face)) {
+      BoundedLinear l{};
+      if (by_middle) {
+        const PlaneSide plane({scene_.point(w), scene_.point(m[0]), scene_.point(m[1])});
+        const auto& o = outer.points;
+        l = linear(plane_values(plane, o.at(o.p[0]), o.at(o.p[1])));
+      } else {
+        l = beside_last(outer, w);
       }
+      if (l.constant() && l.sign0 != Sign::Zero) continue;
+      CurveCut at{
+          by_middle ? CurveCutKind::Far : CurveCutKind::Middle, false, w, {}, 0, 1};
+      if (!l.constant()) enclose_root(l, at);
+      if (l.constant() || coincide(curve, at, cut)) return true;
     }
   }
+  return false;
+}
+
+// Between the outer edges the line at a cut may meet an edge that it is not named by.
+bool EdgePairs::may_meet_other_edge(const Outer& outer, const EeeCurve& curve, int middle,
+                                    const CurveCut& cut) {
   const Ridge& r = g_.ridges()[middle];
   ++node_stamp_;
   const RoundedLine line = rounded_line(outer.points, curve, cut);

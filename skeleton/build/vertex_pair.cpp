@@ -82,147 +82,180 @@ void VertexViewer::list_faces(Pair& pair) const {
   }
 }
 
-// The face's trace in the plane of viewpoint and edge is a segment; what it hides is the
-// part of the edge within its two ends' directions and behind the face's plane.
-void VertexViewer::add_blocker(Pair& pair, int face) {
-  const Face& f = scene_.faces()[face];
+// False: no line that supports at the viewpoint and at the edge is blocked by this face.
+// `own`: the face's object has the viewpoint as a corner.
+bool VertexViewer::may_hide(const Pair& pair, const Face& face, bool own) const {
   // At a corner that stands alone there are its own object's faces only.
-  const bool own = contains(own_objects_, f.object);
   const bool apart = star_->convex && !own;
-  if (!apart && at_viewpoint(f.facet)) return;
-  if (std::find(pair.lists.edge_facets.begin(), pair.lists.edge_facets.end(), f.facet) !=
-      pair.lists.edge_facets.end()) {
-    return;
+  if (!apart && at_viewpoint(face.facet)) return false;
+  const auto& at_edge = pair.lists.edge_facets;
+  if (std::find(at_edge.begin(), at_edge.end(), face.facet) != at_edge.end()) {
+    return false;
   }
-  const bool solid = g_.convex_solid(f.object);
-  if (solid && (f.object == pair.edge->object || own)) {
-    return;  // a line that supports a convex solid does not meet it elsewhere
-  }
+  // A line that supports a convex solid does not meet it elsewhere.
+  return !g_.convex_solid(face.object) || (face.object != pair.edge->object && !own);
+}
+
+// Fills `signs` with the sides of the pair's plane that the face's corners are on; false
+// when the face does not cross that plane.  Only ends of the edge keep the sign zero.
+bool VertexViewer::crosses_plane(Pair& pair, int face, std::span<Sign> signs) {
   const auto corners = scene_.face_points(face);
-  const std::size_t n = corners.size();
-  std::array<Sign, 64> small;
-  std::vector<Sign> large;
-  Sign* signs = small.data();
-  if (n > small.size()) {
-    large.resize(n);
-    signs = large.data();
-  }
   bool front = false;
   bool back = false;
   bool stray = false;  // a corner other than the edge's ends lies in the plane
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < signs.size(); ++k) {
     signs[k] = side_of(pair, corners[k]);
     front |= signs[k] == Sign::Positive;
     back |= signs[k] == Sign::Negative;
     stray |= signs[k] == Sign::Zero && corners[k] != pair.r->points[0] &&
              corners[k] != pair.r->points[1];
   }
-  if (stray) {
-    pair.mild = true;
-    if (front != back && !continues_across(face, {signs, n}) &&
-        !stands_on_ground(pair, face, {signs, n})) {
-      return;  // touches the plane from one side
-    }
-    if (!front && !back) return;
-    // A face with a corner in the plane crosses it there; one whose neighbour across a
-    // side in the plane goes on beyond it hides what this side hides.
-    for (std::size_t k = 0; k < n; ++k) {
-      if (signs[k] == Sign::Zero) signs[k] = front ? Sign::Negative : Sign::Positive;
-    }
-    front = back = true;
+  if (!stray) return front && back;
+  pair.mild = true;
+  if (front != back && !continues_across(face, signs) &&
+      !stands_on_ground(pair, face, signs)) {
+    return false;  // touches the plane from one side
   }
-  if (!front || !back) return;
+  if (!front && !back) return false;
+  // A face with a corner in the plane crosses it there; one whose neighbour across a
+  // side in the plane goes on beyond it hides what this side hides.
+  for (Sign& s : signs) {
+    if (s == Sign::Zero) s = front ? Sign::Negative : Sign::Positive;
+  }
+  return true;
+}
+
+// The segment in which a face crosses the plane of viewpoint and edge, told by the part
+// of the edge between the directions from the viewpoint to the segment's two ends.
+struct VertexViewer::Trace {
+  Cut from, to;              // counter-clockwise around the viewpoint
+  bool misses = false;       // no direction to the segment is one to the edge
+  bool from_behind = false;  // the direction to that end is opposite to one to the edge
+  bool to_behind = false;
+};
+
+// `here`: the side of the face's plane that the viewpoint is on; `apart` as in may_hide.
+VertexViewer::Trace VertexViewer::trace_of(Pair& pair, int face,
+                                           std::span<const Sign> signs, Sign here,
+                                           bool apart) const {
+  const auto corners = scene_.face_points(face);
+  const std::size_t n = signs.size();
+  Trace trace;
+  for (std::size_t k = 0; k < n && !trace.misses; ++k) {
+    const std::size_t next = (k + 1) % n;
+    if (signs[k] == Sign::Zero) {
+      // The trace ends in an end point of the edge.
+      const Sign before = signs[(k + n - 1) % n];
+      const Sign after = signs[next];
+      if (before == after || before == Sign::Zero || after == Sign::Zero) continue;
+      const bool rising = before == Sign::Negative;
+      const bool begins = rising == (here == Sign::Positive);
+      const bool at_start = corners[k] == pair.r->points[0];
+      (begins ? trace.from : trace.to) = at_start ? start_cut() : end_cut();
+      trace.misses |= begins ? !at_start : at_start;
+      continue;
+    }
+    if (signs[next] == Sign::Zero || signs[next] == signs[k]) continue;
+    // The trace ends on this side.  Where the side leads from behind the pair's plane to
+    // the front of it the trace begins, seen from the face's front.
+    const bool rising = signs[k] == Sign::Negative;
+    const bool begins = rising == (here == Sign::Positive);
+    end_on_side(pair, face, static_cast<int>(k), rising, begins, apart, trace);
+  }
+  return trace;
+}
+
+// The end of a trace on side k of the face: `begins` tells which end.
+void VertexViewer::end_on_side(Pair& pair, int face, int k, bool rising, bool begins,
+                               bool apart, Trace& trace) const {
+  const auto corners = scene_.face_points(face);
+  const int tail = corners[k];
+  const int head = corners[(k + 1) % corners.size()];
+  const int p = rising ? head : tail;  // in front of the pair's plane
+  const int q = rising ? tail : head;  // behind it
+  const PlaneSide side_plane({at_, scene_.point(p), scene_.point(q)});
+  const PlaneValues on_edge = plane_values(side_plane, pair.e0, pair.e1);
+  const auto& [x0, x1, s0, s1] = on_edge;
+  pair.mild |= on_edge.zero_at_end();
+  // Negative s0: to the left of the ray to e0; positive s1: to the right of that to e1.
+  if (s0 == Sign::Negative && s1 == Sign::Positive) {
+    const int edge = scene_.edge_of_side(face, k);
+    Cut cut =
+        make_cut(CutKind::Side, edge, {point_, std::min(p, q), std::max(p, q)}, x0, x1);
+    if (edge >= 0 && !apart) {
+      // A side of a face at the viewpoint: its plane is that face's.
+      for (const Edge::Side& s : scene_.edges()[edge].sides) {
+        const int facet = scene_.faces()[s.face].facet;
+        if (!at_viewpoint(facet)) continue;
+        cut.kind = CutKind::Support;
+        cut.feature = facet;
+      }
+    }
+    pair.keep(cut);
+    (begins ? trace.from : trace.to) = cut;
+  } else if (begins) {
+    trace.from_behind = s0 == Sign::Positive && s1 == Sign::Negative;
+    trace.from = start_cut();
+    trace.misses |= !(s0 == Sign::Positive || (s0 == Sign::Zero && s1 == Sign::Positive));
+  } else {
+    trace.to_behind = s0 == Sign::Positive && s1 == Sign::Negative;
+    trace.to = end_cut();
+    trace.misses |= !(s1 == Sign::Negative || (s1 == Sign::Zero && s0 == Sign::Negative));
+  }
+}
+
+// Closes the part of the edge between the directions to the trace's ends, as far as it
+// lies beyond the face's plane; `there`: that plane's values at the ends of the edge.
+void VertexViewer::close_beyond(Pair& pair, int face, const Trace& trace, Sign here,
+                                const PlaneValues& there) const {
+  const auto& [from, to, misses, from_behind, to_behind] = trace;
+  if (misses || (from_behind && to_behind)) return;
+  const bool beyond0 = there.sign0 == -here;
+  const bool beyond1 = there.sign1 == -here;
+  if ((beyond0 && beyond1) || there.zero_at_end()) {
+    pair.close(from, to);
+    return;
+  }
+  // The plane of the face separates the viewpoint from one part of the edge only.
+  const Cut pierce =
+      pair.keep(make_cut(CutKind::Pierce, scene_.faces()[face].facet,
+                         plane_points(scene_, face), there.at0, there.at1));
+  const auto before = [&](const Cut& x, const Cut& y) {
+    return compare(scene_, {pair.e0, pair.e1}, x, y) == Sign::Negative;
+  };
+  if (beyond0) {
+    pair.close(from, before(pierce, to) ? pierce : to);
+  } else {
+    pair.close(before(from, pierce) ? pierce : from, to);
+  }
+}
+
+// The face's trace in the plane of viewpoint and edge is a segment; what it hides is the
+// part of the edge within its two ends' directions and behind the face's plane.
+void VertexViewer::add_blocker(Pair& pair, int face) {
+  const Face& f = scene_.faces()[face];
+  const bool own = contains(own_objects_, f.object);
+  if (!may_hide(pair, f, own)) return;
+  const std::size_t n = scene_.face_points(face).size();
+  std::array<Sign, 64> small;
+  std::vector<Sign> large;
+  if (n > small.size()) large.resize(n);
+  const std::span<Sign> signs(large.empty() ? small.data() : large.data(), n);
+  if (!crosses_plane(pair, face, signs)) return;
   const PlaneSide& face_plane = g_.face_plane(face);
   const Sign here = face_plane(at_);
   if (here == Sign::Zero) {
     pair.mild = true;  // seen edge-on: hides one line at most
     return;
   }
-  if (here == Sign::Negative && solid &&
+  if (here == Sign::Negative && g_.convex_solid(f.object) &&
       !boxes_meet(g_.object_box(f.object), box_of(std::span(&at_, 1)))) {
     return;  // a line comes in by a face in front, which hides no less
   }
-  const auto [value0, value1, there0, there1] =
-      plane_values(face_plane, pair.e0, pair.e1);
-  if (there0 != -here && there1 != -here) return;  // wholly in front of the face
-
-  // The trace's two ends, counter-clockwise around the viewpoint from `from` to `to`.
-  Cut from, to;
-  bool none = false;
-  bool from_behind = false;
-  bool to_behind = false;
-  for (std::size_t k = 0; k < n && !none; ++k) {
-    const std::size_t next = (k + 1) % n;
-    bool rising;  // from back to front: the trace begins here, seen from the face's front
-    int p, q;     // p in front of the plane, q behind
-    if (signs[k] == Sign::Zero) {
-      // The trace ends in an end point of the edge.
-      const Sign before = signs[(k + n - 1) % n];
-      const Sign after = signs[next];
-      if (before == after || before == Sign::Zero || after == Sign::Zero) continue;
-      rising = before == Sign::Negative;
-      const bool begins = rising == (here == Sign::Positive);
-      const bool at_start = corners[k] == pair.r->points[0];
-      const Cut cut = at_start ? start_cut() : end_cut();
-      (begins ? from : to) = cut;
-      none |= begins ? !at_start : at_start;
-      continue;
-    }
-    if (signs[next] == Sign::Zero || signs[next] == signs[k]) continue;
-    rising = signs[k] == Sign::Negative;
-    p = rising ? corners[next] : corners[k];
-    q = rising ? corners[k] : corners[next];
-    const bool begins = rising == (here == Sign::Positive);
-    const PlaneSide side_plane({at_, scene_.point(p), scene_.point(q)});
-    const PlaneValues on_edge = plane_values(side_plane, pair.e0, pair.e1);
-    const auto& [x0, x1, s0, s1] = on_edge;
-    pair.mild |= on_edge.zero_at_end();
-    // Negative s0: to the left of the ray to e0; positive s1: to the right of that to e1.
-    if (s0 == Sign::Negative && s1 == Sign::Positive) {
-      const int edge = scene_.edge_of_side(face, static_cast<int>(k));
-      Cut cut =
-          make_cut(CutKind::Side, edge, {point_, std::min(p, q), std::max(p, q)}, x0, x1);
-      if (edge >= 0 && !apart) {
-        // A side of a face at the viewpoint: its plane is that face's.
-        for (const Edge::Side& s : scene_.edges()[edge].sides) {
-          const int facet = scene_.faces()[s.face].facet;
-          if (!at_viewpoint(facet)) continue;
-          cut.kind = CutKind::Support;
-          cut.feature = facet;
-        }
-      }
-      pair.keep(cut);
-      (begins ? from : to) = cut;
-    } else if (begins) {
-      from_behind = s0 == Sign::Positive && s1 == Sign::Negative;
-      from = start_cut();
-      none |= !(s0 == Sign::Positive || (s0 == Sign::Zero && s1 == Sign::Positive));
-    } else {
-      to_behind = s0 == Sign::Positive && s1 == Sign::Negative;
-      to = end_cut();
-      none |= !(s1 == Sign::Negative || (s1 == Sign::Zero && s0 == Sign::Negative));
-    }
-  }
-  if (none || (from_behind && to_behind)) return;
-  if (there0 == -here && there1 == -here) {
-    pair.close(from, to);
-    return;
-  }
-  // The plane of the face separates the viewpoint from one part of the edge only.
-  if (there0 == Sign::Zero || there1 == Sign::Zero) {
-    pair.close(from, to);
-    return;
-  }
-  const Cut pierce = pair.keep(
-      make_cut(CutKind::Pierce, f.facet, plane_points(scene_, face), value0, value1));
-  const auto before = [&](const Cut& x, const Cut& y) {
-    return compare(scene_, {pair.e0, pair.e1}, x, y) == Sign::Negative;
-  };
-  if (there0 == -here) {
-    pair.close(from, before(pierce, to) ? pierce : to);
-  } else {
-    pair.close(before(from, pierce) ? pierce : from, to);
-  }
+  const PlaneValues there = plane_values(face_plane, pair.e0, pair.e1);
+  if (there.sign0 != -here && there.sign1 != -here) return;  // wholly in front of it
+  const bool apart = star_->convex && !own;
+  close_beyond(pair, face, trace_of(pair, face, signs, here, apart), here, there);
 }
 
 // A side of the face lies in the plane of the pair, all else of the face on one side of

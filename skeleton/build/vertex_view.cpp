@@ -11,6 +11,7 @@
 #include "linespace/space/opposite_edges.h"
 #include "linespace/work/stop_scope.h"
 #include "skeleton/build/degenerate_pair.h"
+#include "skeleton/build/further_contacts.h"
 #include "skeleton/build/vertex_pair.h"
 #include "skeleton/nodes/node_contacts.h"
 
@@ -289,54 +290,47 @@ void VertexViewer::drop_arcs_off_source(VertexView& out) {
   out.keep_arcs(kept);
 }
 
+// Finds all arcs of the viewpoint with one ridge.
 void VertexViewer::view_ridge(int ridge, VertexView& out) {
+  // 1. What is not asked for.  Where only lines from a source are, they lie in the wedge
+  // of the viewpoint and the edge, beyond either.
   if (!part_.has(ridge, wanted_)) return;
+  const Ridge& r = g_.ridges()[ridge];
   if (part_.by_lines && !part_.on_source(star_id_, ridge)) {
-    const auto& p = g_.ridges()[ridge].points;
+    const auto& p = r.points;
     if (!wedge_may_meet(at_, scene_.point(p[0]), scene_.point(p[1]), part_.source_box)) {
       return;
     }
   }
-  const Ridge& r = g_.ridges()[ridge];
+  // 2. What is no silhouette from here, by the sides of its two faces' planes that the
+  // viewpoint is on; then what is hidden as a whole.
   if (r.points[0] == point_ || r.points[1] == point_) return;
   const Sign a = r.a(at_);
   const Sign b = r.b(at_);
   const EdgeContact contact = r.contact(a, b);
-  if (contact == EdgeContact::None) return;
-  const Point& e0 = scene_.point(r.points[0]);
-  const Point& e1 = scene_.point(r.points[1]);
-  if (star_->in_plane_only) {
-    const bool in_plane =
-        std::any_of(star_->planes.begin(), star_->planes.end(), [&](int f) {
-          return g_.face_plane(f)(e0) == Sign::Zero && g_.face_plane(f)(e1) == Sign::Zero;
-        });
-    if (!in_plane && !g_.polygon()) return;
-  } else if (occluders_.hider(e0, e1) >= 0) {
-    return;
-  }
-  const Edge& edge = scene_.edges()[r.edge];
-  const bool own_solid = std::all_of(r.objects.begin(), r.objects.end(), [&](int o) {
-    return g_.convex_solid(o) &&
-           std::binary_search(own_objects_.begin(), own_objects_.end(), o);
-  });
-  if (own_solid) return;
-  if (collinear(at_, e0, e1)) return;  // along the edge: no family of lines
+  if (contact == EdgeContact::None || !may_see(r)) return;
 
+  // 3. The pair: both ends of the edge are known to lie in its plane.
   hear_stop_now();
   lists_->clear();
   ++pair_;
   for (const int end : r.points) point_sides_[end] = {pair_, Sign::Zero};
+  const Point& e0 = scene_.point(r.points[0]);
+  const Point& e1 = scene_.point(r.points[1]);
   Pair pair{&r,
-            &edge,
+            &scene_.edges()[r.edge],
             e0,
             e1,
             PlaneSide({at_, e0, e1}),
             Shaft(at_, e0, e1),
             CutUnion(scene_, {e0, e1}),
             *lists_};
-  for (const Edge::Side& side : edge.sides) {
+  for (const Edge::Side& side : pair.edge->sides) {
     pair.lists.edge_facets.push_back(scene_.faces()[side.face].facet);
   }
+  // 4. What is known of it at once.  A viewpoint in the plane of a face at the edge
+  // leaves only the contacts at the ends of arcs to be listed (mild); other solids at the
+  // edge, or a viewpoint inside of a face, may change all of an arc (degenerate).
   pair.mild = a == Sign::Zero || b == Sign::Zero;
   pair.degenerate =
       r.touched_along() || (r.touched && g_.polygon()) || star_->in_plane_only;
@@ -344,59 +338,98 @@ void VertexViewer::view_ridge(int ridge, VertexView& out) {
   pair.share_facet = g_.polygon() && share(r.all_facets, star_->facets);
   // Those that end there are left out.
   if (pair.share_facet && ((pair.edge_ends && !r.any_side) || !r.can_graze())) return;
-  if (star_->convex) add_unsupported_convex(pair);
-  if (pair.closed.covers_all()) return;
-
-  if (add_blockers(pair)) return;
-  auto open = pair.closed.complement();
+  // 5. The parts of the edge that are seen.  Whether signs alone tell their ends shows
+  // only now: where other faces pierce the edge inside a part, or touch the pair's plane
+  // from both sides, they do not.
+  auto open = open_parts(pair);
   if (open.empty()) return;
-  if (!star_->convex && !pair.degenerate) {
-    add_unsupported_general(pair);
-    open = pair.closed.complement();
-    if (open.empty()) return;
-  }
   if (pierced_inside(pair, open) || changes_at_turn(pair, open)) pair.degenerate = true;
   if (pair.mild || pair.degenerate) list_faces(pair);
   pair.degenerate = pair.degenerate || (pair.mild && touching_across(pair));
+  // 6. The arcs: by single exact lines, or as the cuts tell.
   if (pair.degenerate) {
     add_degenerate_pair(g_, *star_, r, pair.plane, pair.closed, pair.lists.ending,
                         pair.lists.faces, out);
     return;
   }
   if (!pair.lists.ending.empty()) split_at_ends(pair, open);
+  add_arcs(pair, open, out);
+}
+
+// False proves that no line from the viewpoint to the ridge is one of an arc.
+bool VertexViewer::may_see(const Ridge& r) {
+  const Point& e0 = scene_.point(r.points[0]);
+  const Point& e1 = scene_.point(r.points[1]);
+  if (star_->in_plane_only) {
+    const bool in_plane =
+        std::any_of(star_->planes.begin(), star_->planes.end(), [&](int f) {
+          return g_.face_plane(f)(e0) == Sign::Zero && g_.face_plane(f)(e1) == Sign::Zero;
+        });
+    if (!in_plane && !g_.polygon()) return false;
+  } else if (occluders_.hider(e0, e1) >= 0) {
+    return false;
+  }
+  const bool own_solid = std::all_of(r.objects.begin(), r.objects.end(), [&](int o) {
+    return g_.convex_solid(o) &&
+           std::binary_search(own_objects_.begin(), own_objects_.end(), o);
+  });
+  if (own_solid) return false;
+  return !collinear(at_, e0, e1);  // along the edge: no family of lines
+}
+
+// The parts of the edge that are not hidden and that the viewpoint supports.
+std::vector<CutInterval> VertexViewer::open_parts(Pair& pair) {
+  if (star_->convex) add_unsupported_convex(pair);
+  if (pair.closed.covers_all() || add_blockers(pair)) return {};
+  auto open = pair.closed.complement();
+  if (open.empty() || star_->convex || pair.degenerate) return open;
+  add_unsupported_general(pair);
+  return pair.closed.complement();
+}
+
+// An arc for each open part, with the nodes at its ends.
+void VertexViewer::add_arcs(Pair& pair, std::span<const CutInterval> open,
+                            VertexView& out) {
+  const LineThrough line{pair.e0, pair.e1};
   const bool mild = pair.mild || !ends_are_simple(pair, open);
   if (mild) list_faces(pair);
-  const bool self = own_objects_ == r.objects && own_objects_.size() == 1;
+  const bool self = own_objects_ == pair.r->objects && own_objects_.size() == 1;
   for (std::size_t k = 0; k < open.size(); ++k) {
     const CutInterval& i = open[k];
     SkeletonArc arc;
     arc.vertex = point_;
-    arc.edge = r.edge;
+    arc.edge = pair.r->edge;
     arc.self = self;
     arc.ends = {!pair.lists.piece_ends.empty() && pair.lists.piece_ends[k] != 0,
                 pair.edge_ends};
-    arc.range = rounded_range(rounded_parameter(scene_, {pair.e0, pair.e1}, i.from),
-                              rounded_parameter(scene_, {pair.e0, pair.e1}, i.to));
-    const auto node = [&](const Cut& cut) {
-      // Where the edge enters a face, a corner that is one cone touches nothing else.
-      const bool simple =
-          !is_pierced_at(pair, cut) || (star_->convex && cut.kind == CutKind::Pierce);
-      if (!mild && simple) {
-        if (const auto found = end_node(pair, cut, arc.ends, out)) return *found;
-      }
-      if (g_.polygon()) list_faces(pair);
-      return contact_node(g_, *star_, r, pair.lists.faces, cut, arc.ends, out);
-    };
+    arc.range = rounded_range(rounded_parameter(scene_, line, i.from),
+                              rounded_parameter(scene_, line, i.to));
     if (pair.share_facet && arc.ends[0]) continue;
     // Where the kind of contact changes, one line ends two arcs.
     const bool goes_on = k > 0 && !pair.share_facet && !pair.lists.piece_ends.empty() &&
-                         compare(scene_, {e0, e1}, open[k - 1].to, i.from) == Sign::Zero;
-    const std::uint32_t first = goes_on ? out.arcs.back().nodes[1] : node(i.from);
-    arc.nodes = {first, node(i.to)};
+                         compare(scene_, line, open[k - 1].to, i.from) == Sign::Zero;
+    const std::uint32_t first =
+        goes_on ? out.arcs.back().nodes[1] : node_at(pair, i.from, arc.ends, mild, out);
+    arc.nodes = {first, node_at(pair, i.to, arc.ends, mild, out)};
     out.arcs.push_back(arc);
     out.intervals.push_back(i);
     out.special_arcs.push_back(mild);
   }
+}
+
+// The node at a cut that ends an arc: named by the cut alone where that is certain, else
+// by its contacts.
+std::uint32_t VertexViewer::node_at(Pair& pair, const Cut& cut,
+                                    const std::array<bool, 2>& ends, bool mild,
+                                    VertexView& out) const {
+  // Where the edge enters a face, a corner that is one cone touches nothing else.
+  const bool simple =
+      !is_pierced_at(pair, cut) || (star_->convex && cut.kind == CutKind::Pierce);
+  if (!mild && simple) {
+    if (const auto found = end_node(pair, cut, ends, out)) return *found;
+  }
+  if (g_.polygon()) list_faces(pair);
+  return contact_node(g_, *star_, *pair.r, pair.lists.faces, cut, ends, out);
 }
 
 // Polygon mode: cuts the open parts where the viewpoint turns from a graze into an end
@@ -516,7 +549,11 @@ std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut&
                         std::span<const std::int32_t> b) {
     return a.size() == 1 && b.size() == 1 && a[0] == b[0];
   };
+  // `self`: two of the line's contacts are on one object, and on no other.
   const bool arc_self = alone(own_objects_, pair.r->objects);
+  // VV: the arc ends in an end of the edge.  Each of the two corners is grazed or, in
+  // polygon mode, an end contact; a line in the plane of a face at one is left to
+  // contact_node().
   if (cut.kind == CutKind::Start || cut.kind == CutKind::End) {
     const int far = pair.r->points[cut.kind == CutKind::End];
     const Star& star = g_.stars()[g_.star_of_point(far)];
@@ -533,8 +570,11 @@ std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut&
                         {at_, scene_.point(far)},
                         g_.polygon() ? blocked : std::array<bool, 2>{});
   }
+  // Other ends are inside the edge: what cuts it there is the third generator.
   const Point hit = pair.e0 + cut.parameter() * (pair.e1 - pair.e0);
   switch (cut.kind) {
+    // VEE: the line grazes a blocker's side on its way.  The side may be an edge of the
+    // viewpoint's own object, or of the far edge's: then the event is of one object.
     case CutKind::Side: {
       const Generator side = g_.named(cut.feature);
       const Generator generators[] = {vertex, side, edge};
@@ -543,17 +583,20 @@ std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut&
           arc_self || alone(own_objects_, objects) || alone(objects, pair.r->objects);
       return out.add_node(NodeKind::VEE, self, false, generators, {at_, hit}, ends);
     }
+    // FvE: beyond the plane of a face here the viewpoint does not support any more.
     case CutKind::Support: {
       const Generator generators[] = {vertex, {GeneratorKind::Face, cut.feature}, edge};
       // In the plane of a face at the viewpoint: grazed there.
       return out.add_node(NodeKind::FvE, arc_self, false, generators, {at_, hit},
                           {false, ends[1]});
     }
+    // Two edges of the viewpoint's own corner line up: nothing else is met.
     case CutKind::Saddle: {
       const Generator generators[] = {vertex, edge};
       return out.add_node(NodeKind::Saddle, arc_self, false, generators, {at_, hit},
                           ends);
     }
+    // Pierce: the edge enters a face there, so that what is beyond is hidden.
     default: {
       const Generator generators[] = {vertex, {GeneratorKind::Face, cut.feature}, edge};
       return out.add_node(NodeKind::Pierce, arc_self, false, generators, {at_, hit},

@@ -24,6 +24,7 @@
 namespace sightline::internal {
 
 class KnownLines;
+struct PlaneValues;
 
 /// Arcs of one vertex; node numbers and generator positions are local to the view.
 struct VertexView {
@@ -105,10 +106,25 @@ class VertexViewer {
   void drop_short_arcs(VertexView& out);
   void drop_arcs_off_source(VertexView& out);
   void view_ridge(int ridge, VertexView& out);
+  [[nodiscard]] bool may_see(const Ridge& r);
+  [[nodiscard]] std::vector<CutInterval> open_parts(Pair& pair);
+  void add_arcs(Pair& pair, std::span<const CutInterval> open, VertexView& out);
+  [[nodiscard]] std::uint32_t node_at(Pair& pair, const Cut& cut,
+                                      const std::array<bool, 2>& ends, bool mild,
+                                      VertexView& out) const;
   [[nodiscard]] Sign side_of(const Pair& pair, int corner);
   [[nodiscard]] bool on_one_side(const Pair& pair, int face);
   bool add_blockers(Pair& pair);
   void add_blocker(Pair& pair, int face);
+  struct Trace;  // of a face in the plane of the pair
+  [[nodiscard]] bool may_hide(const Pair& pair, const Face& face, bool own) const;
+  [[nodiscard]] bool crosses_plane(Pair& pair, int face, std::span<Sign> signs);
+  [[nodiscard]] Trace trace_of(Pair& pair, int face, std::span<const Sign> signs,
+                               Sign here, bool apart) const;
+  void end_on_side(Pair& pair, int face, int k, bool rising, bool begins, bool apart,
+                   Trace& trace) const;
+  void close_beyond(Pair& pair, int face, const Trace& trace, Sign here,
+                    const PlaneValues& there) const;
   void list_faces(Pair& pair) const;
   [[nodiscard]] bool continues_across(int face, std::span<const Sign> signs) const;
   [[nodiscard]] bool touching_across(const Pair& pair) const;

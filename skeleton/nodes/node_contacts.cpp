@@ -40,16 +40,21 @@ std::vector<Generator> generators_of(const Silhouettes& g, const LineScan& scan,
   const auto add_edge = [&](int edge) {
     if (edge >= 0) found.push_back(g.named(edge));
   };
+  // 1. Faces of the contact that the reach leaves out: those met only beyond its ends.
   const bool bounded = reach != nullptr && (reach->from || reach->to);
   const auto near =
       bounded ? scan.faces_within(contact, reach->from, reach->to) : std::vector<int>{};
   const auto in_reach = [&](int face) {
     return !bounded || std::ranges::binary_search(near, face);
   };
+  // 2. What each face is touched in: a corner, a side, or along a stretch inside of it,
+  // where the face itself is the generator.  A point inside a face that the line crosses
+  // is none.
   for (const Touch& t : scan.touches(contact)) {
     if (!in_reach(t.face)) continue;
     const auto corners = scene.face_points(t.face);
     if (t.kind == TouchKind::Corner) {
+      // Not every vertex of the file is a corner: none is in the middle of a wall.
       const int p = corners[t.index];
       if (g.star_of_point(p) >= 0) found.push_back({GeneratorKind::Vertex, p});
       // An edge that goes straight on here, whoever else has a corner.
@@ -66,14 +71,18 @@ std::vector<Generator> generators_of(const Silhouettes& g, const LineScan& scan,
       facets.push_back(scene.faces()[t.face].facet);
     }
   }
+  // 3. A face that the line lies in tells no corners of its own: those on the line are
+  // generators, too.
   for (const int p : scan.edge_on_corners(contact)) {
     const bool reached = !bounded || reach->has(exact_point(scene.point(p)));
     if (reached && g.star_of_point(p) >= 0) found.push_back({GeneratorKind::Vertex, p});
   }
   sort_unique(facets);
-  // A side through which the line leaves an edge-on face says nothing new.
+  // 4. A side through which the line leaves an edge-on face says nothing new: every line
+  // in the face's plane leaves it through some side.
   std::erase_if(found, [&](const Generator& x) {
     if (x.kind != GeneratorKind::Edge) return false;
+    // Of edges that coincide one stands for all: the facets at any of them count.
     const int ridge = g.ridge_of_edge(x.id);
     if (ridge >= 0) return share(g.ridges()[ridge].all_facets, facets);
     const auto& sides = scene.edges()[x.id].sides;
@@ -82,6 +91,7 @@ std::vector<Generator> generators_of(const Silhouettes& g, const LineScan& scan,
                                 scene.faces()[s.face].facet);
     });
   });
+  // 5. The facets come last and the list is sorted: equal contacts have equal lists.
   for (const int f : facets) found.push_back({GeneratorKind::Face, f});
   sort_unique(found);
   return found;
@@ -267,20 +277,25 @@ NodeContacts contacts_between(const Silhouettes& g, const LineScan& scan) {
 NodeContacts contacts_along(const Silhouettes& g, const LineScan& scan,
                             const std::array<ExactPoint, 2>& line, bool end, bool grazes,
                             const LineName* name) {
+  // 1. The contacts that the line is given by: the one at position 0 and the one at 1.
   int first = -1;
   int last = -1;
   for (int c = 0; c < scan.size() && scan.from_against(c, 1) <= 0; ++c) {
     if (scan.from_against(c, 0) <= 0 && scan.to_against(c, 0) >= 0) first = c;
     if (scan.to_against(c, 1) >= 0) last = c;
   }
+  // Without a contact at both the line is none of a node.
   if (first < 0 || last < 0) return {};
   const bool polygon = g.polygon();
-  // Polygon mode: the contacts at which the line ends, and beyond which nothing is seen.
+  // 2. Polygon mode: which of the two contacts the line ends at, so that nothing is seen
+  // beyond.
   std::array<bool, 2> stops_at{};
   if (polygon && !grazes && end) {
     stops_at = blocked_ends(g, scan).value_or(std::array<bool, 2>{
         blocks_segment(g, scan, first), blocks_segment(g, scan, last)});
   }
+  // 3. The other contacts on the maximal free segment, step by step beyond the two.  In
+  // polygon mode the contact that ends the segment counts, too, where it has generators.
   const auto go_on = [&](int contact, int step) -> FreeEnd {
     FreeEnd reached = last_contact(g, scan, contact, step);
     const int next = reached.contact + step;
@@ -289,6 +304,8 @@ NodeContacts contacts_along(const Silhouettes& g, const LineScan& scan,
                       !generators_of(g, scan, next).empty();
     return ends ? FreeEnd{next, stop_in(g, scan, next, step)} : reached;
   };
+  // A contact that ends the line is its last one; it may stop the line within itself, at
+  // a position that FreeEnd tells.
   const auto end_at = [&](int contact, int step, bool stops) -> FreeEnd {
     return stops ? FreeEnd{contact, stop_in(g, scan, contact, step)}
                  : go_on(contact, step);
@@ -297,14 +314,17 @@ NodeContacts contacts_along(const Silhouettes& g, const LineScan& scan,
   FreeEnd high = end_at(last, 1, stops_at[1]);
   first = low.contact;
   last = high.contact;
+  // 4. The generators of each contact, as far as the segment reaches: what lies behind
+  // the foot of a wall, in the plane of another, is not reached.
   std::vector<std::vector<Generator>> groups;
-  // What lies behind the foot of a wall, in the plane of another, is not reached.
   const Reach reach{line, std::move(low.stop), std::move(high.stop)};
   std::vector<int> contacts;
   for (int c = first; c <= last; ++c) {
     groups.push_back(generators_of(g, scan, c, &reach));
     contacts.push_back(c);
   }
+  // 5. Its kind, and the segment between its outermost contacts.  Generators are listed
+  // from the end with the smaller one; `turned` says that this is the far end.
   NodeContacts node = node_along(g, groups);
   name_end_of_arc(g, scan, contacts, groups, node);
   const auto point_at = [&](const Rational& t) {
@@ -312,15 +332,18 @@ NodeContacts contacts_along(const Silhouettes& g, const LineScan& scan,
   };
   node.segment = {point_at(scan.from(first)), point_at(scan.to(last))};
   if (node.turned) std::swap(node.segment[0], node.segment[1]);
+  // 6. What only some kinds have.  A degenerate line is named by itself: its contacts do
+  // not tell it from others.
   if (ends_one_arc(node.kind)) return node;
   if (node.kind == NodeKind::Degenerate) {
     node.line = name != nullptr ? *name : name_of_line(line);
     if (!polygon && !node.both_ways) node.free_part = free_part(scan, first, last);
   }
-  // A line along a face that ends where the face does.
+  // FEE: a line along a face that ends where the face does.
   const bool stops = reach.from || reach.to;
   node.end = end || (node.kind == NodeKind::FEE && stops);
   if (polygon && (!grazes || node.end)) {
+    // Along the line; the node tells them in the order of its generators.
     const std::array<bool, 2> ends{stops_at[0] || reach.from, stops_at[1] || reach.to};
     node.ends = {ends[node.turned ? 1 : 0], ends[node.turned ? 0 : 1]};
     node.end = node.end || ends[0] || ends[1];

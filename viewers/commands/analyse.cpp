@@ -269,6 +269,70 @@ PagePicture eeee_picture(const SceneView& view, const Canvas& canvas, const Scen
                   names, arcs)};
 }
 
+/// `arcs`: all EV arcs of one vertex, in the scene as `view` shows it.
+PagePicture vertex_picture(const SceneView& view, const Canvas& canvas,
+                           const Scene& scene, const SkeletonLines& lines,
+                           const Skeleton& skeleton, const std::vector<int>& arcs) {
+  const std::vector<RuledStrip> strips = strips_of(scene, lines, skeleton, arcs);
+  PagePicture picture = strips_picture(view, canvas, scene, skeleton, strips);
+  picture.file = "vertex.png";
+  picture.title = "All events of one vertex";
+  const Point& v = scene.point(skeleton.arcs[arcs[0]].vertex);
+  picture.caption = fmt::format(
+      "{} The vertex at ({:.4g}, {:.4g}, {:.4g}) and the silhouette edges it sees: "
+      "each "
+      "veil is one EV line set, out to the faces that end it. A light in that vertex "
+      "would cast these shadow edges.",
+      drawn_of(strips.size(), arcs.size(), "line sets"), v.x(), v.y(), v.z());
+  return picture;
+}
+
+/// `arcs`: all EV arcs of one edge.
+PagePicture edge_picture(const SceneView& view, const Canvas& canvas, const Scene& scene,
+                         const SkeletonLines& lines, const Skeleton& skeleton,
+                         const std::vector<int>& arcs) {
+  const std::vector<RuledStrip> strips = strips_of(scene, lines, skeleton, arcs);
+  PagePicture picture = strips_picture(view, canvas, scene, skeleton, strips);
+  picture.file = "edge.png";
+  picture.title = "All events of one edge";
+  picture.caption = drawn_of(strips.size(), arcs.size(), "line sets") +
+                    " The edge that most vertices see, out to the faces behind it. An "
+                    "EV line set is a fan through its vertex.";
+  return picture;
+}
+
+/// `arcs`: all EV arcs between two objects.
+PagePicture objects_picture(const SceneView& view, const Canvas& canvas,
+                            const Scene& scene, const Skeleton& skeleton,
+                            const std::vector<int>& arcs) {
+  const SkeletonArc& one = skeleton.arcs[arcs[0]];
+  return {"pair.png", pair_picture(view, canvas, scene, skeleton, arcs),
+          "Between two objects",
+          fmt::format(
+              "All {} EV arcs between {} and {}, each the triangle between its vertex "
+              "and its part of the edge, with the lines at their ends. {}",
+              arcs.size(),
+              html_escaped(scene.objects()[object_of_vertex(scene, one.vertex)].name),
+              html_escaped(scene.objects()[scene.edges()[one.edge].object].name),
+              "The same pair: <code>sightline skeleton --between A B</code>.")};
+}
+
+/// Nodes of all kinds, fainter the more there are.
+PagePicture nodes_picture(const SceneView& view, const Canvas& canvas,
+                          const Skeleton& skeleton) {
+  SceneView overview = view;
+  const std::vector<int> nodes = evenly_spread(skeleton.nodes.size(), kDrawnNodes);
+  const double crowd = static_cast<double>(nodes.size());
+  add_nodes(overview.drawing, skeleton, nodes,
+            static_cast<float>(std::clamp(300 / (crowd + 1), 0.16, 0.9)),
+            crowd > 500 ? 1.1F : 1.8F);
+  return {"nodes.png", encode_png(canvas.picture(overview.drawing)),
+          "Extremal stabbing lines",
+          drawn_of(nodes.size(), skeleton.nodes.size(),
+                   "lines, each between its outermost contacts") +
+              " " + node_legend(node_counts(skeleton))};
+}
+
 std::vector<PagePicture> draw_pictures(const Scene& scene, const SkeletonLines& lines,
                                        const Skeleton& skeleton,
                                        const Highlights& highlights,
@@ -282,46 +346,16 @@ std::vector<PagePicture> draw_pictures(const Scene& scene, const SkeletonLines& 
   if (region) add_box(view.drawing, *region, {0.84F, 0.15F, 0.24F});
   const Canvas canvas(view.drawing, view.camera, {.request = request});
   std::vector<PagePicture> pictures;
-
   if (!highlights.vertex.empty()) {
-    const std::vector<RuledStrip> strips =
-        strips_of(scene, lines, skeleton, highlights.vertex);
-    PagePicture picture = strips_picture(view, canvas, scene, skeleton, strips);
-    picture.file = "vertex.png";
-    picture.title = "All events of one vertex";
-    const Point& v = scene.point(skeleton.arcs[highlights.vertex[0]].vertex);
-    picture.caption = fmt::format(
-        "{} The vertex at ({:.4g}, {:.4g}, {:.4g}) and the silhouette edges it sees: "
-        "each "
-        "veil is one EV line set, out to the faces that end it. A light in that vertex "
-        "would cast these shadow edges.",
-        drawn_of(strips.size(), highlights.vertex.size(), "line sets"), v.x(), v.y(),
-        v.z());
-    pictures.push_back(std::move(picture));
+    pictures.push_back(
+        vertex_picture(view, canvas, scene, lines, skeleton, highlights.vertex));
   }
   if (!highlights.edge.empty()) {
-    const std::vector<RuledStrip> strips =
-        strips_of(scene, lines, skeleton, highlights.edge);
-    PagePicture picture = strips_picture(view, canvas, scene, skeleton, strips);
-    picture.file = "edge.png";
-    picture.title = "All events of one edge";
-    picture.caption = drawn_of(strips.size(), highlights.edge.size(), "line sets") +
-                      " The edge that most vertices see, out to the faces behind it. An "
-                      "EV line set is a fan through its vertex.";
-    pictures.push_back(std::move(picture));
+    pictures.push_back(
+        edge_picture(view, canvas, scene, lines, skeleton, highlights.edge));
   }
   if (!highlights.pair.empty()) {
-    const SkeletonArc& one = skeleton.arcs[highlights.pair[0]];
-    pictures.push_back(
-        {"pair.png", pair_picture(view, canvas, scene, skeleton, highlights.pair),
-         "Between two objects",
-         fmt::format(
-             "All {} EV arcs between {} and {}, each the triangle between its vertex "
-             "and its part of the edge, with the lines at their ends. {}",
-             highlights.pair.size(),
-             html_escaped(scene.objects()[object_of_vertex(scene, one.vertex)].name),
-             html_escaped(scene.objects()[scene.edges()[one.edge].object].name),
-             "The same pair: <code>sightline skeleton --between A B</code>.")});
+    pictures.push_back(objects_picture(view, canvas, scene, skeleton, highlights.pair));
   }
   if (highlights.eee) {
     pictures.push_back(eee_picture(view, canvas, scene, skeleton, *highlights.eee));
@@ -329,17 +363,7 @@ std::vector<PagePicture> draw_pictures(const Scene& scene, const SkeletonLines& 
   if (highlights.eeee) {
     pictures.push_back(eeee_picture(view, canvas, scene, skeleton, *highlights.eeee));
   }
-  SceneView overview = view;
-  const std::vector<int> nodes = evenly_spread(skeleton.nodes.size(), kDrawnNodes);
-  const double crowd = static_cast<double>(nodes.size());
-  add_nodes(overview.drawing, skeleton, nodes,
-            static_cast<float>(std::clamp(300 / (crowd + 1), 0.16, 0.9)),
-            crowd > 500 ? 1.1F : 1.8F);
-  pictures.push_back({"nodes.png", encode_png(canvas.picture(overview.drawing)),
-                      "Extremal stabbing lines",
-                      drawn_of(nodes.size(), skeleton.nodes.size(),
-                               "lines, each between its outermost contacts") +
-                          " " + node_legend(node_counts(skeleton))});
+  pictures.push_back(nodes_picture(view, canvas, skeleton));
   return pictures;
 }
 
@@ -420,21 +444,26 @@ void save_skeleton(Session& session, const AnalyseOptions& options, const Scene&
 }
 
 ExitStatus run(Session& session, const AnalyseOptions& options) {
+  // The option is there for analyses to come: today it has one value.
   for (const std::string& name : options.only) {
     if (name != "skeleton") {
       throw UsageError(fmt::format(
           "--only: '{}' is not available in this version; available: skeleton", name));
     }
   }
+  // Outputs first: a folder that cannot be written is refused before the work.  Two kinds
+  // of names are ours: those of the report, and in `vtk` those of VTK files.
   Outputs outputs(options);
   ReportFolder folder(options.folder);
   outputs.add_folder("-o", folder.path(),
                      [&folder](const std::string& name) { return folder.takes(name); });
   outputs.add_folder("-o", folder.path() / "vtk", is_vtk_name);
+  // The meter counts predicates of this thread; the skeleton counts its own.
   const Meter meter;
   StageLog log;
   const PrecisionScope precision(options.precision);
-  // 1. The scene and what is wrong with it.
+  // 1. The scene and what is wrong with it.  The search for defects has the grace of
+  // writing: without it the report would look like that of a sound scene.
   SkeletonRequest request;
   request.ff = true;
   request.region = region_box(options.region);
@@ -443,7 +472,8 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
   const std::vector<Defect> defects = validate(scene, session.with_grace());
   log.done("look for defects");
 
-  // 2. The skeleton, within what is left of the budget.
+  // 2. The skeleton, within what is left of the budget.  Its memory is taken here, before
+  // pictures add theirs.
   request.precision = options.precision;
   request.threads = options.threads;
   session.limit(request);
@@ -452,16 +482,20 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
   log.done("visibility skeleton");
   const std::size_t analysis_memory = peak_memory_bytes();
 
-  // 3. Files.
+  // 3. Files.  Those of an earlier run go first, so that the folder is of one run only.
+  // The skeleton comes before what is drawn of it: of all files it cost the most.
   folder.clear();
   save_skeleton(session, options, scene, skeleton, folder);
   log.done("saved skeleton");
+  // `lines` finds free segments: made once, by the first of two steps that gets so far,
+  // since either may be stopped.
   std::optional<SkeletonLines> lines;
   const Highlights highlights = find_highlights(scene, skeleton);
   session.write("VTK files", [&](const Request& writing) {
     lines.emplace(scene, writing);
     const std::vector<RuledStrip> strips =
         strips_of(scene, *lines, skeleton, highlights.vertex);
+    // Only files in the report's own folder are listed on its page.
     const bool here = options.vtk.empty();
     const fs::path vtk = here ? folder.path() / "vtk" : fs::path(options.vtk);
     std::vector<std::string> names = write_vtk(vtk, scene, {&skeleton, &strips}, writing);
@@ -469,6 +503,7 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
     if (here) folder.add(names);
   });
   log.done("VTK files");
+  // All pictures or none: the page shows only those that were drawn to the end.
   std::vector<PagePicture> pictures;
   session.write("pictures", [&](const Request& writing) {
     if (!lines) lines.emplace(scene, writing);
@@ -482,7 +517,8 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
   log.done("pictures");
   const bool complete = skeleton.complete && session.unwritten().empty();
 
-  // 4. The report.
+  // 4. The report, which knows by now what is missing.  The page is made of the report
+  // and the pictures alone, so that both say the same.
   Json report = answer_head("analyse", scene, complete,
                             {session.seconds(), before + skeleton.predicates});
   report["peak_memory_bytes"] = analysis_memory;
@@ -496,6 +532,7 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
                              {"predicates", stage_counts(skeleton.predicates)}});
   report["stages"] = log.stages();
   report["missing"] = missing_json(skeleton, session);
+  // Announced before the list of files is taken: they are in it themselves.
   const fs::path report_file = folder.announce("report.json");
   const fs::path page = folder.announce("index.html");
   report["files"] = folder.files();

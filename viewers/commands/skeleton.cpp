@@ -386,34 +386,31 @@ ExitStatus run(Session& session, const SkeletonOptions& options) {
   return session.end(complete);
 }
 
-}  // namespace
-
-Command add_skeleton_command(CLI::App& app) {
-  auto options = std::make_shared<SkeletonOptions>();
-  CLI::App* command = app.add_subcommand(
-      "skeleton",
-      "the exact visibility skeleton: critical line sets and extremal stabbing lines");
-  add_scene_argument(*command, *options);
+/// Which lines make events.
+void add_event_options(CLI::App& command, SkeletonOptions& options) {
   command
-      ->add_option(
-          "--events", options->events,
-          "solid: lines that graze at every contact (default); polygon: "
-          "the two outermost contacts may also be visible creases and corners at "
-          "which the free segment ends, counted under \"end\"")
+      .add_option("--events", options.events,
+                  "solid: lines that graze at every contact (default); polygon: "
+                  "the two outermost contacts may also be visible creases and corners at "
+                  "which the free segment ends, counted under \"end\"")
       ->type_name("solid|polygon")
       ->check(one_of({"solid", "polygon"}));
   command
-      ->add_option(
-          "--kinds", options->kinds,
+      .add_option(
+          "--kinds", options.kinds,
           "kinds of critical line sets, separated by commas: EV, through a vertex "
           "and an edge, EEE, through three edges; and FF, lines in the planes of two "
           "faces (default EV,EEE,FF)")
       ->type_name("EV,EEE,FF")
       ->delimiter(',')
       ->allow_extra_args(false);
+}
+
+/// Parts of the skeleton that groups of faces tell.
+void add_group_options(CLI::App& command, SkeletonOptions& options) {
   command
-      ->add_option(
-          "--between", options->between,
+      .add_option(
+          "--between", options.between,
           "only EV arcs with the vertex on group A and the edge on group B or the "
           "other way round, and EEE arcs with the outer edges one on each; a "
           "group is a name or #i-j, faces i to j from 0")
@@ -421,37 +418,45 @@ Command add_skeleton_command(CLI::App& app) {
       ->expected(2)
       ->allow_extra_args(false);
   command
-      ->add_option(
-          "--through", options->through,
+      .add_option(
+          "--through", options.through,
           "only lines that meet this group: EV arcs with the vertex or the edge on it "
           "or with lines that end on it, EEE arcs with an edge on it, FF with a "
           "face of it")
       ->type_name("GROUP");
-  add_region_option(*command, options->region);
+}
+
+/// The perturbed copy of the scene.
+void add_perturb_options(CLI::App& command, SkeletonOptions& options) {
   command
-      ->add_option("--perturb", options->perturb,
-                   "first move every object by its own random map, no point by more than "
-                   "this, in scene units: nothing lines up across objects any more "
-                   "(default 0: the scene as it is)")
+      .add_option("--perturb", options.perturb,
+                  "first move every object by its own random map, no point by more than "
+                  "this, in scene units: nothing lines up across objects any more "
+                  "(default 0: the scene as it is)")
       ->type_name("SIZE")
       ->check(number_from_zero(kLargestCoordinate));
-  command->add_option("--seed", options->seed, "of --perturb's random maps (default 1)")
+  command.add_option("--seed", options.seed, "of --perturb's random maps (default 1)")
       ->type_name("N")
       ->check(whole_number(0));
+}
+
+/// Parts of the skeleton that a place, or two, tell.
+void add_place_options(CLI::App& command,
+                       const std::shared_ptr<SkeletonOptions>& options) {
   command
-      ->add_option("--near", options->near,
-                   "only vertices and edges no farther than --radius from the point "
-                   "x,y,z (an edge with some point of it)")
+      .add_option("--near", options->near,
+                  "only vertices and edges no farther than --radius from the point "
+                  "x,y,z (an edge with some point of it)")
       ->type_name("x,y,z")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->expected(3)
       ->check(finite_number());
-  command->add_option("--radius", options->radius, "of --near, in scene units")
+  command.add_option("--radius", options->radius, "of --near, in scene units")
       ->type_name("R")
       ->check(number_above_zero());
   command
-      ->add_option_function<std::vector<std::string>>(
+      .add_option_function<std::vector<std::string>>(
           "--between-boxes",
           [options](const std::vector<std::string>& boxes) {
             options->between_boxes = {box_of(boxes[0]), box_of(boxes[1])};
@@ -461,60 +466,94 @@ Command add_skeleton_command(CLI::App& app) {
       ->type_name("BOX BOX")
       ->expected(2)
       ->allow_extra_args(false);
+}
+
+/// The size below which features make no events.
+void add_feature_size_option(CLI::App& command, SkeletonOptions& options) {
   command
-      ->add_option("--feature-size", options->feature_size,
-                   "features below this size in scene units make no events but still "
-                   "occlude: shorter edges, corners with only such edges, EV arcs on a "
-                   "shorter stretch; what is left out is reported (default 0: nothing)")
+      .add_option("--feature-size", options.feature_size,
+                  "features below this size in scene units make no events but still "
+                  "occlude: shorter edges, corners with only such edges, EV arcs on a "
+                  "shorter stretch; what is left out is reported (default 0: nothing)")
       ->type_name("L")
       ->check(number_from_zero());
-  add_size_budget_option(*command, options->budget_bytes);
-  command->add_flag(
-      "--list", options->list,
+}
+
+/// What is written, beside the answer.
+void add_output_options(CLI::App& command, SkeletonOptions& options) {
+  command.add_flag(
+      "--list", options.list,
       "add every node and arc to the JSON answer: generators, line (of arcs "
       "exactly: numbers or \"p/q\"), contacts, free segment and what ends it");
-  command->add_flag(
-      "--extend", options->extend,
-      "with --vtk: draw EV arcs out to the ends of their free segments too");
+  command.add_flag("--extend", options.extend,
+                   "with --vtk: draw EV arcs out to the ends of their free segments too");
   command
-      ->add_option("-o,--output", options->output,
-                   "save the skeleton as JSON; `sightline view FILE` shows it")
+      .add_option("-o,--output", options.output,
+                  "save the skeleton as JSON; `sightline view FILE` shows it")
       ->type_name("FILE");
+}
+
+/// The option that takes a skeleton from a file, and excludes those that only the
+/// building obeys.
+void add_saved_option(CLI::App& command, SkeletonOptions& options) {
   CLI::Option* const saved =
       command
-          ->add_option("--saved", options->saved,
-                       "take the skeleton of this scene from a file that -o wrote, "
-                       "instead of building it, with the options that it was built "
-                       "with; refused when the scene's coordinates, polygons or groups "
-                       "have changed since, or the file has")
+          .add_option("--saved", options.saved,
+                      "take the skeleton of this scene from a file that -o wrote, "
+                      "instead of building it, with the options that it was built "
+                      "with; refused when the scene's coordinates, polygons or groups "
+                      "have changed since, or the file has")
           ->type_name("FILE");
-  // What only the building obeys.
   for (const char* name :
        {"--events", "--kinds", "--between", "--through", "--region", "--near", "--radius",
         "--between-boxes", "--feature-size", "--budget-mb"}) {
-    saved->excludes(command->get_option(name));
+    saved->excludes(command.get_option(name));
   }
+}
+
+/// What is asked of the skeleton.
+void add_query_options(CLI::App& command, SkeletonOptions& options) {
   command
-      ->add_option("--seen-from", options->seen_from,
-                   "list the arcs with a line that ends on this group: the events that "
-                   "it sees; outside: those seen from far away")
+      .add_option("--seen-from", options.seen_from,
+                  "list the arcs with a line that ends on this group: the events that "
+                  "it sees; outside: those seen from far away")
       ->type_name("GROUP");
   command
-      ->add_option("--between-ends", options->between_ends,
-                   "list the arcs with a line that runs from one group to the other, or "
-                   "to the outside")
+      .add_option("--between-ends", options.between_ends,
+                  "list the arcs with a line that runs from one group to the other, or "
+                  "to the outside")
       ->type_name("A B")
       ->expected(2)
       ->allow_extra_args(false);
   command
-      ->add_option("--crossed", options->crossed,
-                   "list the events that a viewpoint crosses on its way from one point "
-                   "to the other (scene units), in order: u from 0 to 1 along the way, "
-                   "the point, the kind (EV, EEE, or F: a face turns), generators; "
-                   "events in one point are marked =")
+      .add_option("--crossed", options.crossed,
+                  "list the events that a viewpoint crosses on its way from one point "
+                  "to the other (scene units), in order: u from 0 to 1 along the way, "
+                  "the point, the kind (EV, EEE, or F: a face turns), generators; "
+                  "events in one point are marked =")
       ->type_name("X,Y,Z X,Y,Z")
       ->expected(2)
       ->allow_extra_args(false);
+}
+
+}  // namespace
+
+Command add_skeleton_command(CLI::App& app) {
+  auto options = std::make_shared<SkeletonOptions>();
+  CLI::App* command = app.add_subcommand(
+      "skeleton",
+      "the exact visibility skeleton: critical line sets and extremal stabbing lines");
+  add_scene_argument(*command, *options);
+  add_event_options(*command, *options);
+  add_group_options(*command, *options);
+  add_region_option(*command, options->region);
+  add_perturb_options(*command, *options);
+  add_place_options(*command, options);
+  add_feature_size_option(*command, *options);
+  add_size_budget_option(*command, options->budget_bytes);
+  add_output_options(*command, *options);
+  add_saved_option(*command, *options);
+  add_query_options(*command, *options);
   add_common_options(*command, *options);
   return command_of(options, run);
 }

@@ -276,6 +276,72 @@ ExitStatus run(Session& session, const ViewCommandOptions& options) {
   return session.end(true);
 }
 
+/// How the picture of --png looks, and what of the scene or the skeleton is in it.
+void add_picture_options(CLI::App& command, ViewCommandOptions& options,
+                         CLI::Option* png) {
+  command
+      .add_option("--up", options.up,
+                  "the axis that points up in the picture (default: guessed)")
+      ->type_name("x|y|z")
+      ->check(one_of({"x", "y", "z"}));
+  command
+      .add_option("--size", options.size,
+                  "width,height of the picture in pixels (default 1400,980)")
+      ->type_name("W,H")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->expected(2)
+      ->check(whole_number(16, 16384));
+  command
+      .add_option("--box", options.box,
+                  "a picture of this box only: x0,y0,z0,x1,y1,z1 in scene units, smaller "
+                  "corner first; everything is cut at its faces (solids show a dark "
+                  "cut), and the picture frames it; a room without its ceiling is a box "
+                  "that ends just below it (default: everything)")
+      ->type_name("BOX")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->expected(6)
+      ->check(finite_number())
+      ->needs(png);
+  command
+      .add_option("--kinds", options.kinds,
+                  "of a saved skeleton, draw only arcs and nodes of these kinds, named "
+                  "as `sightline skeleton` counts them: EV,EV_self,EEE,VV,EEEE,... "
+                  "(default: all)")
+      ->type_name("KIND,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->needs(png);
+}
+
+/// From where the picture of --png is taken.
+void add_eye_options(CLI::App& command, ViewCommandOptions& options, CLI::Option* png) {
+  CLI::Option* eye =
+      command
+          .add_option("--eye", options.eye,
+                      "take the picture from this point, x,y,z in scene units, outside "
+                      "or inside of the scene; nothing is left away then, and the angle "
+                      "is what just holds the box or the scene, 69 degrees at most "
+                      "(default: from where most is seen)")
+          ->type_name("POINT")
+          ->delimiter(',')
+          ->allow_extra_args(false)
+          ->expected(3)
+          ->check(finite_number())
+          ->needs(png);
+  command
+      .add_option("--look-at", options.look_at,
+                  "the point x,y,z in the middle of the picture of --eye (default: the "
+                  "middle of the box or of the scene)")
+      ->type_name("POINT")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->expected(3)
+      ->check(finite_number())
+      ->needs(eye);
+}
+
 }  // namespace
 
 Command add_view_command(CLI::App& app) {
@@ -299,64 +365,8 @@ Command add_view_command(CLI::App& app) {
                        "write a picture instead of opening a window; of arcs, at most "
                        "60,000 triangles, evenly chosen")
           ->type_name("FILE");
-  command
-      ->add_option("--up", options->up,
-                   "the axis that points up in the picture (default: guessed)")
-      ->type_name("x|y|z")
-      ->check(one_of({"x", "y", "z"}));
-  command
-      ->add_option("--size", options->size,
-                   "width,height of the picture in pixels (default 1400,980)")
-      ->type_name("W,H")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->expected(2)
-      ->check(whole_number(16, 16384));
-  command
-      ->add_option(
-          "--box", options->box,
-          "a picture of this box only: x0,y0,z0,x1,y1,z1 in scene units, smaller "
-          "corner first; everything is cut at its faces (solids show a dark "
-          "cut), and the picture frames it; a room without its ceiling is a box "
-          "that ends just below it (default: everything)")
-      ->type_name("BOX")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->expected(6)
-      ->check(finite_number())
-      ->needs(png);
-  command
-      ->add_option("--kinds", options->kinds,
-                   "of a saved skeleton, draw only arcs and nodes of these kinds, named "
-                   "as `sightline skeleton` counts them: EV,EV_self,EEE,VV,EEEE,... "
-                   "(default: all)")
-      ->type_name("KIND,...")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->needs(png);
-  CLI::Option* eye =
-      command
-          ->add_option("--eye", options->eye,
-                       "take the picture from this point, x,y,z in scene units, outside "
-                       "or inside of the scene; nothing is left away then, and the angle "
-                       "is what just holds the box or the scene, 69 degrees at most "
-                       "(default: from where most is seen)")
-          ->type_name("POINT")
-          ->delimiter(',')
-          ->allow_extra_args(false)
-          ->expected(3)
-          ->check(finite_number())
-          ->needs(png);
-  command
-      ->add_option("--look-at", options->look_at,
-                   "the point x,y,z in the middle of the picture of --eye (default: the "
-                   "middle of the box or of the scene)")
-      ->type_name("POINT")
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->expected(3)
-      ->check(finite_number())
-      ->needs(eye);
+  add_picture_options(*command, *options, png);
+  add_eye_options(*command, *options, png);
   add_budget_option(*command, options->budget);
   return command_of(options, run);
 }

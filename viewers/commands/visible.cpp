@@ -240,11 +240,15 @@ void write_witnesses(const VisibleOptions& options, const Scene& scene,
 
 ExitStatus run_groups(Session& session, const VisibleOptions& options) {
   if (options.method == "sampled") return run_sampled(session, options);
+  // 1. Outputs first: one that cannot be written fails before the work.  Then the faces
+  // of the two groups: all polygons that a name, or #i-j, tells.
   Outputs outputs(options);
   const Meter meter;
   const Scene scene = read_scene(session, options.scene, options.format);
   const std::vector<int> as = scene.faces_named(options.a);
   const std::vector<int> bs = scene.faces_named(options.b);
+  // 2. The verdict on the two groups.  With --seam, the pairs of faces too that see each
+  // other only through a gap that was closed: no cover of theirs is needed for that.
   const FaceVisibility visibility(scene, session.with_grace(), options.seam);
   const GroupAnswer group =
       visibility.between(as, bs, options.all_pairs, request_of(session, options));
@@ -254,15 +258,19 @@ ExitStatus run_groups(Session& session, const VisibleOptions& options) {
     request.keep_cover = false;
     closed = closed_pairs(scene, visibility, as, bs, group, options.all_pairs, request);
   }
+  // Complete with every pair asked for decided; without --pairs one that sees suffices.
   const bool complete =
       closed.complete && (options.all_pairs ? group.pairs_undecided == 0
                                             : group.verdict != Verdict::Undecided);
+  // 3. The answer: the verdict with its proof.  A witness proves "visible"; where the
+  // budget ended first, a pair of faces that is still open says where.
   Json answer = answer_head("visible", scene, complete,
                             {session.seconds(), meter.predicates() + group.predicates});
   answer["method"] = "exact";
   answer["groups"] = {options.a, options.b};
   answer["visible"] = verdict_json(group.verdict);
   answer["witness"] = group.visible ? witness_json(group.visible->answer) : Json(nullptr);
+  // Faces are named by their numbers in the file.
   if (group.visible) {
     answer["faces"] = {scene.faces()[group.visible->a].source,
                        scene.faces()[group.visible->b].source};
@@ -271,19 +279,23 @@ ExitStatus run_groups(Session& session, const VisibleOptions& options) {
   if (options.seam > 0) answer["seams"] = seams_json(scene, closed);
   answer["face_pairs"] = as.size() * bs.size();
   answer["cost"] = cost_json(group.cost);
+  // Every pair of faces has its own verdict and proof, which --check proves again.
   if (options.all_pairs) {
     answer["pairs"] = Json::array();
     for (const FacePairAnswer& pair : group.pairs) {
       answer["pairs"].push_back(pair_json(scene, visibility, pair, options.check));
     }
   }
+  // 4. Files, then the answer itself: it says whether all of them were written in time.
   if (!options.vtk.empty()) {
     session.write("VTK files", [&](const Request& request) {
       write_witnesses(options, scene, group, request);
     });
   }
+  // A partial answer is written, too: what it proves holds.
   answer["complete"] = complete && session.unwritten().empty();
   outputs.write_answer(answer);
+  // 5. The same in a few lines for people, unless the JSON goes to the terminal.
   if (options.may_print()) {
     const char* verdict = group.verdict == Verdict::Visible  ? "visible"
                           : group.verdict == Verdict::Hidden ? "hidden"
@@ -299,6 +311,7 @@ ExitStatus run_groups(Session& session, const VisibleOptions& options) {
           from.nearest.z(), answer["faces"][1].get<int>(), to.nearest.x(), to.nearest.y(),
           to.nearest.z());
     }
+    // Pairs that only the seam option hides from each other.
     for (const auto& [from, to, seam] : closed.pairs) {
       std::cout << fmt::format("  open without --seam: face {} to face {}\n",
                                scene.faces()[from].source, scene.faces()[to].source);

@@ -206,16 +206,20 @@ Drawing faces_within(const Scene& scene, const std::vector<char>& shown,
 }  // namespace
 
 SceneView view_scene(const Scene& scene, const ViewOptions& options) {
+  // Unless it is told, the axis that points up is guessed from the scene.
   const int axis = options.up_axis >= 0 ? options.up_axis : guess_up_axis(scene);
   const Point up = Point::Unit(axis);
   const double aspect = static_cast<double>(options.width) / options.height;
 
+  // 1. What the picture frames, and which facets count when views are compared: with a
+  // focus, those with a corner in it.  The focus is framed with some of its surroundings.
   std::array<Point, 2> framed = options.box.value_or(scene.bounds());
   std::vector<char> counts(scene.facets().size(), 1);
   if (options.focus) {
     const auto& [low, high] = *options.focus;
     const Point margin = 0.25 * (high - low);
     framed = {framed[0].cwiseMax(low - margin), framed[1].cwiseMin(high + margin)};
+    // A focus outside of the scene is framed alone.
     if ((framed[0].array() > framed[1].array()).any()) framed = *options.focus;
     for (std::size_t f = 0; f < counts.size(); ++f) {
       counts[f] = std::ranges::any_of(scene.facets()[f].faces, [&](int face) {
@@ -225,6 +229,8 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
     }
   }
 
+  // 2. Inside of a box, or from an eye of the user's, all faces are shown; else the walls
+  // between the eye and the scene are left away, which depends on the view.
   SceneView view;
   std::vector<char> shown(scene.faces().size(), 1);
   const bool whole = options.box || options.look;
@@ -232,6 +238,10 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
   if (options.look) {
     view.camera = look_from(options.look->eye, options.look->at, framed, axis, aspect);
   } else {
+    // 3. Without an eye: directions all around, at a few heights, each judged by how
+    // evenly the picture is divided among facets (the entropy of their areas in a small
+    // picture).
+    // Large scenes take long to draw: fewer directions.
     const bool large = scene.faces().size() > 20000;
     const int turns = large ? 6 : 12;
     // What a box cuts open is best looked into from above.
@@ -248,16 +258,20 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
         const Point direction =
             eye_direction(axis, elevation, static_cast<double>(turn) / turns);
         const Camera camera = frame(framed, direction, up, aspect);
+        // With a box the drawing is the same from everywhere: made once, above.
         const Drawing faces =
             whole ? Drawing{} : draw_faces(scene, faces_shown(scene, direction));
         const double score =
             entropy(visible_ids(whole ? view.drawing : faces, camera, 168, 118), counts);
+        // Of views that are as good but for rounding the first one is taken: the same on
+        // every machine.
         if (score > best_score * (1 + 1e-9)) {
           best_score = score;
           best = direction;
         }
       }
     }
+    // Drawings of views that were only tried are not kept.
     view.camera = frame(framed, best, up, aspect);
     if (!whole) {
       shown = faces_shown(scene, best);
@@ -265,10 +279,12 @@ SceneView view_scene(const Scene& scene, const ViewOptions& options) {
     }
   }
 
+  // 4. A polygon of the file is shown when one of the faces that it was cut into is.
   view.polygon_shown.assign(scene.soup().polygons.size(), 0);
   for (std::size_t f = 0; f < shown.size(); ++f) {
     if (shown[f]) view.polygon_shown[scene.faces()[f].source] = 1;
   }
+  // Edges last: which of them are drawn depends on the faces shown and on the eye.
   add_edges(view.drawing, scene, shown, view.camera.eye, options.box);
   return view;
 }
