@@ -23,7 +23,7 @@ Box around(const Point& p0, const Point& p1, double x, double outwards) {
     const double at = x == 0 ? p0[i] : x == 1 ? p1[i] : p0[i] + x * d;
     box.min[i] = box.max[i] = at;
     if (d == 0 || x == 0 || x == 1) continue;
-    const double error = 4 * kUnitRoundoff * (std::abs(p0[i]) + std::abs(d));
+    const double error = 4 * kUnit * (std::abs(p0[i]) + std::abs(d));
     if (varies == 1) {
       const double shifted = at + (d > 0 ? outwards : -outwards) * error;
       box.min[i] = box.max[i] =
@@ -41,7 +41,7 @@ Box around(const Point& p0, const Point& p1, double x, double outwards) {
 std::array<double, 3> EdgePiece::pad() const {
   std::array<double, 3> pad;
   for (int i = 0; i < 3; ++i) {
-    pad[i] = (1 + 2 * kUnitRoundoff) *
+    pad[i] = (1 + 2 * kUnit) *
              std::max(ends[0].max[i] - ends[0].min[i], ends[1].max[i] - ends[1].min[i]);
   }
   return pad;

@@ -39,7 +39,7 @@ class Way {
       c[i] = 0.5 * (box.min[i] + box.max[i]) - middle_[i];
       // Wider by a rounding or two: much touches on a ground.
       h[i] = 0.5 * (box.max[i] - box.min[i]) +
-             8 * kUnitRoundoff * (std::abs(box.max[i]) + std::abs(middle_[i]));
+             8 * kUnit * (std::abs(box.max[i]) + std::abs(middle_[i]));
       if (std::abs(c[i]) > h[i] + half_[i]) return false;
     }
     for (int i = 0; i < 3; ++i) {

@@ -59,7 +59,7 @@ void Scan::set_line(const ExactPoint& a, const ExactPoint& b) {
     rd[i] = mpq_get_d(d[i].backend().data());
   }
   // mpq_get_d truncates: an error of less than 2 ulp.
-  round_line(ra, rd, 2 * kUlp);
+  round_line(ra, rd, 2 * kUnit);
 }
 
 void Scan::round_line(const double* a, const double* d, double a_relative_error) {
@@ -120,10 +120,10 @@ bool Scan::first_stage(std::span<const int> points) {
     u_scratch[2 * c + 1] = uy;
   }
   largest_u = std::max({-low_x, high_x, -low_y, high_y});
-  const double du = 12 * kUlp * largest_v + 3 * rounded.a_error + kUnderflow;
+  const double du = 12 * kUnit * largest_v + 3 * rounded.a_error + kUnderflow;
   if (low_x > du || high_x < -du || low_y > du || high_y < -du) return false;
   const double bound =
-      4 * largest_u * du + 2 * du * du + 8 * kUlp * largest_u * largest_u + kUnderflow;
+      4 * largest_u * du + 2 * du * du + 8 * kUnit * largest_u * largest_u + kUnderflow;
   bool left = false, right = false;
   for (std::size_t c = 0; c < n; ++c) {
     const double* p = &u_scratch[2 * c];
@@ -204,7 +204,8 @@ int Scan::compare(int p, int q) const {
   const Position &a = positions[p], &b = positions[q];
   // Each is within a relative 6 ulp.
   const double gap = a.approx - b.approx;
-  const double bound = 16 * kUlp * (std::abs(a.approx) + std::abs(b.approx)) + kUnderflow;
+  const double bound =
+      16 * kUnit * (std::abs(a.approx) + std::abs(b.approx)) + kUnderflow;
   if (bound < std::numeric_limits<double>::infinity()) {
     if (gap > bound) return 1;
     if (gap < -bound) return -1;
@@ -238,7 +239,7 @@ int Scan::t_against(int position, int s) const {
   if (s == 0) return sign_of(p.num);  // den and scale are positive
   // approx is within a relative 6 ulp, rounded_scale within 2, the product within 1.
   const double gap = p.approx * rounded_scale - 1;
-  const double bound = 16 * kUlp * (std::abs(gap) + 1) + kUnderflow;
+  const double bound = 16 * kUnit * (std::abs(gap) + 1) + kUnderflow;
   if (gap > bound) return 1;
   if (gap < -bound) return -1;
   return t(position).compare(1);

@@ -20,13 +20,13 @@
 #include <utility>
 
 #include "linespace/numbers/rational.h"
+#include "linespace/numbers/surd.h"
+#include "linespace/predicates.h"
 
 namespace sightline::internal::contacts {
 
-using Ring = CGAL::Mpzf;
 using CGAL::Gmpq;
 
-inline constexpr double kUlp = std::numeric_limits<double>::epsilon() / 2;  // 2^-53
 /// Added to bounds so that underflow cannot make them too small.  The smallest products
 /// that matter are of degree 4 in coordinates of at least 2^-192 (differences of doubles
 /// of at least 2^-140), that is 2^-768.
@@ -74,7 +74,7 @@ template <class Exact>
 int sum_sign(double p, double q, double r, double s, Exact&& exact) {
   const double pq = p * q, rs = r * s;
   const double sum = pq + rs;
-  const double bound = 8 * kUlp * (std::abs(pq) + std::abs(rs)) + kUnderflow;
+  const double bound = 8 * kUnit * (std::abs(pq) + std::abs(rs)) + kUnderflow;
   if (sum > bound && bound < std::numeric_limits<double>::infinity()) return 1;
   if (sum < -bound && bound < std::numeric_limits<double>::infinity()) return -1;
   return exact();

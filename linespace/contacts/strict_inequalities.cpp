@@ -21,7 +21,7 @@ int dot_sign(const Row& p, const Row& q, int dimension) {
     sum += product;
     size += std::abs(product);
   }
-  const double bound = 12 * kUlp * size + kUnderflow;
+  const double bound = 12 * kUnit * size + kUnderflow;
   if (sum > bound) return 1;
   if (sum < -bound) return -1;
   return sign_of(exact_dot(p, q, dimension));

@@ -29,6 +29,7 @@
 #include <new>
 
 #include "linespace/contacts/contact.h"
+#include "linespace/contacts/seen_along.h"
 #include "linespace/numbers/exact_numbers.h"
 #include "linespace/sight/occlusion.h"
 #include "linespace/space/bvh.h"
@@ -43,12 +44,12 @@ namespace {
 
 using internal::Box;
 using internal::Bvh;
+using internal::kUnit;
 using internal::LineScan;
 using internal::Rational;
+using internal::contacts::kUnderflow;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kUlp = std::numeric_limits<double>::epsilon() / 2;  // 2^-53
-constexpr double kUnderflow = 1e-300;                                // see contact.cpp
 constexpr float kInflation = 0x1p-18f;
 // Ends of a line are looked at within this many scene sizes; beyond, Embree is not asked.
 constexpr double kFar = 0x1p20;
@@ -124,8 +125,8 @@ struct Line {
     shear[0] = d[0] / d[2];
     shear[1] = d[1] / d[2];
     sense = std::copysign(1.0, d[2]);
-    s_bound = 90 * kUlp * (v * v) + kUnderflow;
-    n_bound = 800 * kUlp * (v * v) * v + kUnderflow;
+    s_bound = 90 * kUnit * (v * v) + kUnderflow;
+    n_bound = 800 * kUnit * (v * v) * v + kUnderflow;
   }
 };
 
@@ -161,8 +162,8 @@ Crossing certify(const Line& line, const Item& item) {
     v = std::max(std::max(v, std::abs(vi)), std::max(std::abs(vj), std::abs(vk[c])));
     u = std::max(u, std::max(std::abs(ux[c]), std::abs(uy[c])));
   }
-  const double du = 12 * kUlp * v * std::abs(line.d[2]) + kUnderflow;
-  const double ds = 4 * u * du + 2 * du * du + 8 * kUlp * u * u + kUnderflow;
+  const double du = 12 * kUnit * v * std::abs(line.d[2]) + kUnderflow;
+  const double ds = 4 * u * du + 2 * du * du + 8 * kUnit * u * u + kUnderflow;
   double least = kInfinity, most = -kInfinity;
   double s[kMostCorners];
   for (int c = 0; c < count; ++c) {
@@ -178,10 +179,10 @@ Crossing certify(const Line& line, const Item& item) {
   const double w1 = count == 3 ? s[2] : ux[2] * uy[0] - uy[2] * ux[0];
   Crossing out{Passage::Crosses};
   out.s = w0 + w1 + w2;
-  out.s_error = 3 * ds + 12 * kUlp * u * u;
+  out.s_error = 3 * ds + 12 * kUnit * u * u;
   if (std::abs(out.s) <= out.s_error) return {Passage::Doubtful};
   out.n = w0 * vk[0] + w1 * vk[1] + w2 * vk[2];
-  out.n_error = 3 * v * ds + 32 * kUlp * u * u * v + kUnderflow;
+  out.n_error = 3 * v * ds + 32 * kUnit * u * u * v + kUnderflow;
   const double flip = (out.s > 0) == (line.d[2] > 0) ? 1 : -1;
   const double na = flip * out.n;
   out.past_a = na > out.n_error ? 1 : na < -out.n_error ? -1 : 0;
@@ -193,7 +194,7 @@ Crossing certify(const Line& line, const Item& item) {
     nb += w[c] * vb;
   }
   nb *= flip;
-  const double nb_error = 3 * largest * ds + 32 * kUlp * u * u * largest + kUnderflow;
+  const double nb_error = 3 * largest * ds + 32 * kUnit * u * u * largest + kUnderflow;
   out.past_b = nb > nb_error ? 1 : nb < -nb_error ? -1 : 0;
   return out;
 }
@@ -291,7 +292,7 @@ bool share_axis_plane(const Item& p, const Item& q) {
 
 // Distances are rounded up or down by this share of themselves: quotients of bounds, a
 // product or two.
-constexpr double kSlack = 16 * kUlp;
+constexpr double kSlack = 16 * kUnit;
 
 // Of all points of the item, as the line's leading coordinate tells.
 double least_distance(const Line& line, const Item& item, int beyond) {
@@ -978,7 +979,7 @@ class TriangleShaft {
     }
     const Point e1 = corners_[1] - corners_[0], e2 = corners_[2] - corners_[0];
     const double bound =
-        32 * kUlp * size * 2 * e1.cwiseAbs().maxCoeff() * e2.cwiseAbs().maxCoeff() +
+        32 * kUnit * size * 2 * e1.cwiseAbs().maxCoeff() * e2.cwiseAbs().maxCoeff() +
         kUnderflow;
     return least > bound || most < -bound;
   }
@@ -996,12 +997,12 @@ class TriangleShaft {
         const double li = (mi > 0 ? box.min[i] : box.max[i]) - p[i];
         const double lj = (mj > 0 ? box.min[j] : box.max[j]) - p[j];
         const double bound =
-            8 * kUlp * (std::abs(mi * li) + std::abs(mj * lj)) + kUnderflow;
+            8 * kUnit * (std::abs(mi * li) + std::abs(mj * lj)) + kUnderflow;
         if (mi * li + mj * lj <= bound) continue;
         // The third corner must be certainly on the other side, or the turn may be wrong.
         const double ri = r[i] - p[i], rj = r[j] - p[j];
         if (mi * ri + mj * rj <=
-            -8 * kUlp * (std::abs(mi * ri) + std::abs(mj * rj)) - kUnderflow) {
+            -8 * kUnit * (std::abs(mi * ri) + std::abs(mj * rj)) - kUnderflow) {
           return true;
         }
       }

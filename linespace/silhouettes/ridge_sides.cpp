@@ -26,7 +26,7 @@ RidgeSides::RidgeSides(const Scene& scene, const Ridge& r)
       largest = std::max(largest, std::abs(plane.normal[i]));
       slack = std::max(slack, plane.slack[i]);
     }
-    slack_[k] = (1 + 16 * kUnitRoundoff) * (slack + 16 * kUnitRoundoff * largest);
+    slack_[k] = (1 + 16 * kUnit) * (slack + 16 * kUnit * largest);
   }
 }
 

@@ -17,7 +17,7 @@ using FlatChord = std::array<Point, 2>;
 FlatChord chord_of(const Point& at, const std::array<Point, 2>& edge) {
   return {(edge[0] - at).normalized(), (edge[1] - at).normalized()};
 }
-constexpr double kChordError = 16 * kUnitRoundoff;
+constexpr double kChordError = 16 * kUnit;
 
 // Around all directions to points of the edge: the chord's points made longer, by 1 / |m|
 // at most, with m its middle.  Each coordinate of m is off by kChordError and a rounding,

@@ -12,12 +12,11 @@
 #include <limits>
 #include <vector>
 
+#include "linespace/predicates.h"
 #include "linespace/scene.h"
 #include "linespace/space/bvh.h"
 
 namespace sightline::internal {
-
-inline constexpr double kUnitRoundoff = std::numeric_limits<double>::epsilon() / 2;
 
 /// A box as centre and half sizes, rounded so that it contains the original.
 struct CentredBox {
@@ -30,7 +29,7 @@ inline CentredBox centred(const Box& box) {
     c.centre[i] = 0.5 * (box.min[i] + box.max[i]);
     // The subtractions below are each rounded once: 4 units cover both.
     const double h = std::max(box.max[i] - c.centre[i], c.centre[i] - box.min[i]);
-    c.half[i] = h * (1 + 4 * kUnitRoundoff);
+    c.half[i] = h * (1 + 4 * kUnit);
   }
   return c;
 }
@@ -99,7 +98,7 @@ inline BoundedPlane plane_from(const Point& origin, const Point& p, const Point&
     const double a = u[j] * w[k];
     const double b = u[k] * w[j];
     plane.normal[i] = a - b;
-    plane.slack[i] = 32 * kUnitRoundoff * (std::abs(a) + std::abs(b));
+    plane.slack[i] = 32 * kUnit * (std::abs(a) + std::abs(b));
   }
   return plane;
 }
@@ -112,9 +111,9 @@ inline BoundedPlane plane_seen_from(const Point& origin, const Point& a, const P
   for (int i = 0; i < 3; ++i) {
     plane.offset += plane.normal[i] * d[i];
     plane.error +=
-        (plane.slack[i] + 8 * kUnitRoundoff * std::abs(plane.normal[i])) * std::abs(d[i]);
+        (plane.slack[i] + 8 * kUnit * std::abs(plane.normal[i])) * std::abs(d[i]);
   }
-  plane.error *= 1 + 8 * kUnitRoundoff;
+  plane.error *= 1 + 8 * kUnit;
   return plane;
 }
 
@@ -184,7 +183,7 @@ class Shaft {
       h[i] = std::max(box.max[i] - centre, centre - box.min[i]);
       c[i] = centre - origin_[i];
       // 16 e covers the roundings of centre, its offset, the products and the sums.
-      h[i] += 16 * kUnitRoundoff * (std::abs(c[i]) + h[i]);
+      h[i] += 16 * kUnit * (std::abs(c[i]) + h[i]);
     }
     for (int k = 0; k < count_; ++k) {
       const Axis& axis = axes_[k];
@@ -248,7 +247,7 @@ class Shaft {
       high = std::max(high, at);
       largest = std::max(largest, size);
     }
-    double error = 16 * kUnitRoundoff * largest;
+    double error = 16 * kUnit * largest;
     for (int i = 0; i < 3; ++i) error += 2 * std::abs(m[i]) * pad_[i];
     axes_[count_++] = {m, low - error, high + error};
   }

@@ -14,15 +14,13 @@
 namespace sightline::internal {
 namespace {
 
-constexpr double kU = kUnitRoundoff;
-
 [[nodiscard]] bool in_double() { return thread_precision == Precision::Double; }
 
 // Sum of the roundings of H's coefficients and of their inputs' errors: each coefficient
 // is a sum of two products (the middle one of four, halved), |f g| <= largest^2.
 [[nodiscard]] double product_error(const BoundedForm& f, const BoundedForm& g) {
   return 2.5 * (f.largest * g.error + f.error * g.largest + f.error * g.error +
-                4 * kU * f.largest * g.largest);
+                4 * kUnit * f.largest * g.largest);
 }
 
 // H in Bernstein form: value at 0, blossom (0, 1), value at 1.
@@ -46,7 +44,7 @@ struct Bernstein {
   // Six roundings of a blossom, each of at most twice the largest coefficient.
   // A margin beyond [0, 1], 1 / 100 at most, adds less than a tenth.
   h.error = 1.1 * product_error(f, g) +
-            20 * kU * (std::abs(h.h0) + std::abs(h.h1) + std::abs(h.h2));
+            20 * kUnit * (std::abs(h.h0) + std::abs(h.h1) + std::abs(h.h2));
   return h;
 }
 
@@ -77,7 +75,7 @@ BilinearForm<Ring> OuterPair::exact_form(const Carrier& g) const {
 
 // s = |x| / (|x| + |y|), increasing in |x| and decreasing in |y|; as make_cut().
 void enclose_root(const BoundedLinear& l, CurveCut& cut) {
-  constexpr double slack = 16 * kU;
+  constexpr double slack = 16 * kUnit;
   const double x = std::abs(l.at0);
   const double y = std::abs(l.at1);
   const double x_low = std::max(0.0, x - l.error0);
@@ -189,7 +187,7 @@ bool EeeCurve::rises_at(int carrier, const std::optional<Rational>& s,
 }
 
 CurveCut EeeCurve::cut_at(const Rational& s) const {
-  constexpr double slack = 16 * kU;
+  constexpr double slack = 16 * kUnit;
   const double near = s.convert_to<double>();
   CurveCut cut{CurveCutKind::Given};
   cut.feature = static_cast<std::int32_t>(given_.size());
@@ -222,7 +220,7 @@ BoundedLinear EeeCurve::at_last_edge(const BoundedValue& a0, const BoundedValue&
   l.at0 = a1.value * form_.f[0][0] - a0.value * form_.f[0][1];
   l.at1 = a1.value * form_.f[1][0] - a0.value * form_.f[1][1];
   l.error0 = l.error1 = 2.5 * (largest * form_.error + error * form_.largest +
-                               error * form_.error + 4 * kU * largest * form_.largest);
+                               error * form_.error + 4 * kUnit * largest * form_.largest);
   l.sign0 = certain_sign(l.at0, l.error0);
   l.sign1 = certain_sign(l.at1, l.error1);
   if (l.sign0 != Sign::Zero && l.sign1 != Sign::Zero) return l;
@@ -336,11 +334,11 @@ double EeeCurve::rounded(const CurveCut& cut) const {
 
 // t = |F0| / (|F0| + |F1|) as in enclose_root(), F0 and F1 being linear in s.
 std::array<double, 2> EeeCurve::enclose_last(const CurveCut& cut) const {
-  constexpr double slack = 16 * kU;
+  constexpr double slack = 16 * kUnit;
   double low[2];
   double high[2];
   for (int b = 0; b < 2; ++b) {
-    const double error = form_.error + 8 * kU * form_.largest;
+    const double error = form_.error + 8 * kUnit * form_.largest;
     const double at_lo = form_.f[0][b] * (1 - cut.lo) + form_.f[1][b] * cut.lo;
     const double at_hi = form_.f[0][b] * (1 - cut.hi) + form_.f[1][b] * cut.hi;
     const double x = std::abs(at_lo);
@@ -411,7 +409,7 @@ int count_roots(const QuadraticOnInterval& q, double discriminant) {
   // Two roots between need the middle coefficient on the other side.
   if (q.sign_middle == q.sign_a) return 0;
   const double size = std::abs(q.at_a) + std::abs(q.middle) + std::abs(q.at_b);
-  const double error = 4 * q.h.error * size + 8 * kU * size * size;
+  const double error = 4 * q.h.error * size + 8 * kUnit * size * size;
   if (discriminant < -error || (in_double() && discriminant <= 0)) return 0;
   if (discriminant <= error && !in_double()) return -1;
   return q.sign_middle == Sign::Zero ? -1 : 2;
@@ -429,7 +427,7 @@ bool enclose(const QuadraticOnInterval& q, double u, double root, Sign before,
     cut.lo = cut.hi = s;
     return true;
   }
-  double margin = 4 * kU + 4 * q.h.error * width / root;
+  double margin = 4 * kUnit + 4 * q.h.error * width / root;
   for (int tries = 0; tries < 3; ++tries, margin *= 16) {
     cut.lo = s - margin;
     cut.hi = s + margin;
@@ -591,7 +589,7 @@ Sign EeeCurve::rounded_order_at(const CurveCut& cut, int carrier,
   const double c_error = std::max(cf.error, cg.error);
   const double c = std::max(std::abs(cf.value), std::abs(cg.value)) + c_error;
   const double error = 4 * ((form_.error + form.error) * c +
-                            (form_.largest + form.largest) * (c_error + 8 * kU * c));
+                            (form_.largest + form.largest) * (c_error + 8 * kUnit * c));
   const Sign at_lo = certain_sign(at(cut.lo), error);
   return at_lo == certain_sign(at(cut.hi), error) ? at_lo : Sign::Zero;
 }

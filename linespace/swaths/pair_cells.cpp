@@ -6,7 +6,6 @@
 namespace sightline::internal {
 namespace {
 
-constexpr double kU = kUnitRoundoff;
 // A cell is left whole after so many halvings, or when so few faces are left: speed only.
 constexpr int kDeepest = 8;
 constexpr std::size_t kFewFaces = 8;
@@ -34,7 +33,7 @@ struct Signs {
 // ends.
 Signs<2> signs(const PairCells::Linear& l, double x0, double x1) {
   const double d = l.at1 - l.at0;
-  const double error = l.error + 4 * kU * (std::abs(l.at0) + std::abs(l.at1));
+  const double error = l.error + 4 * kUnit * (std::abs(l.at0) + std::abs(l.at1));
   Signs<2> out{
       {certain_sign(l.at0 + d * x0, error), certain_sign(l.at0 + d * x1, error)}};
   if (l.zero0 && x0 == 0) out.neutral |= 1;
@@ -61,7 +60,7 @@ struct AtCorners {
   double error;
 
   AtCorners(const BoundedForm& form, double s0, double s1, double t0, double t1)
-      : error(form.error + 24 * kU * form.largest) {
+      : error(form.error + 24 * kUnit * form.largest) {
     const auto& f = form.f;
     const double d0 = f[0][1] - f[0][0];
     const double d1 = f[1][1] - f[1][0];

@@ -456,7 +456,7 @@ class EeeFamily {
     const auto& f = curve_.form();
     const double size = std::abs(f.f[0][0]) + std::abs(f.f[0][1]) + std::abs(f.f[1][0]) +
                         std::abs(f.f[1][1]);
-    const double error = 1.1 * f.error + 8 * kUnitRoundoff * size;
+    const double error = 1.1 * f.error + 8 * kUnit * size;
     const auto values = [&](double s) {
       return std::array<double, 2>{f.f[0][0] * (1 - s) + f.f[1][0] * s,
                                    f.f[0][1] * (1 - s) + f.f[1][1] * s};

@@ -27,7 +27,7 @@ Rational squared_distance(const Point& p, const Point& q) {
 bool shorter(const Point& p, const Point& q, double length) {
   const double here = (p - q).squaredNorm();
   const double there = length * length;
-  constexpr double slack = 16 * kUnitRoundoff;
+  constexpr double slack = 16 * kUnit;
   if (here < there * (1 - slack)) return true;
   if (here > there * (1 + slack)) return false;
   return squared_distance(p, q) < squared(Rational(length));
