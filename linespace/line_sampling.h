@@ -60,11 +60,6 @@ struct Chord {
   Point from, to;
 };
 
-struct Ball {
-  Point center;
-  double radius;  ///< scene units
-};
-
 /// Uniform on the unit sphere; square roots only (Marsaglia 1972).
 [[nodiscard]] Point random_direction(SampleNumbers& numbers);
 

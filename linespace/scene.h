@@ -27,6 +27,11 @@ struct SceneBuilder;
 
 using Point = Eigen::Vector3d;
 
+struct Ball {
+  Point centre;
+  double radius;  ///< scene units
+};
+
 /// The caller's input cannot be used; what() is one line that names the element.
 class InvalidInput : public std::runtime_error {
  public:

@@ -12,17 +12,10 @@
 
 namespace sightline {
 
-/// Which part of the skeleton is wanted.
-struct SkeletonRequest : Request {
-  /// Kinds of line sets that build_skeleton() looks for; with EV come the VV, VEE, FvE
-  /// and EVE nodes, with EEE the VEE, EVE, EEEE and FEE nodes.
-  bool ev = true, eee = true;
-  EventMode events = EventMode::Solid;
-  /// Whether FF nodes are looked for too: free lines in the planes of two facets, across
-  /// the inside of both (of one object: `self`).  They end no arc, so they come only when
-  /// asked for.  Facets in parallel planes have none, nor have those that are planar only
-  /// up to a tolerance; a facet that the line crosses several times counts once.
-  bool ff = false;
+/// A part of the skeleton, by what its arcs must be on, in or between: all conditions
+/// must hold, and what is left empty asks for nothing.  Such a part is computed on its
+/// own, and is the same as in the whole.
+struct SkeletonPart {
   /// Only EV arcs whose vertex is on one of these objects; empty means all.
   std::vector<int> vertex_objects;
   /// Only EV arcs whose edge is on one of these objects; empty means all.
@@ -31,6 +24,10 @@ struct SkeletonRequest : Request {
   /// edge on one of the other, EEE arcs with one outer edge on each; an empty list means
   /// all objects.
   std::array<std::vector<int>, 2> outer_objects;
+  /// Only arcs between two groups of faces, and FF nodes of a facet of each.  A vertex is
+  /// in a group if it is a corner of one of its faces, an edge if a face of one of its
+  /// facets is.  An empty list means all faces.
+  std::array<std::vector<int>, 2> between_faces;
   /// Only arcs with a generator on one of these objects; empty means all.
   std::vector<int> through_objects;
   /// Likewise of a source given by some of its faces: a corner of one, an edge of its
@@ -43,12 +40,9 @@ struct SkeletonRequest : Request {
   /// Only generators inside this closed box (corner of smallest, of largest coordinates),
   /// an edge with both its ends.
   std::optional<std::array<Point, 2>> region;
-  struct Ball {
-    Point centre;
-    double radius;  ///< scene units; finite, not below 0, else InvalidInput is thrown
-  };
   /// Only generators no farther than the radius from the centre, an edge with some point
-  /// of it: what a viewpoint there has around it.  Decided exactly.
+  /// of it: what a viewpoint there has around it.  Decided exactly.  Centre and radius
+  /// finite, the radius not below 0, else InvalidInput is thrown.
   std::optional<Ball> near;
   /// Only arcs between two closed boxes, such as two rooms: EV arcs with the vertex in
   /// one and the edge (both ends) in the other, EEE arcs with the outer edges one in
@@ -60,6 +54,20 @@ struct SkeletonRequest : Request {
   /// edge.  Skeleton::simplified lists them.  What is left is a subset of the arcs at any
   /// smaller size.
   double feature_size = 0;
+};
+
+/// What of the skeleton is wanted: kinds of events, and which part.
+struct SkeletonRequest : Request {
+  /// Kinds of line sets that build_skeleton() looks for; with EV come the VV, VEE, FvE
+  /// and EVE nodes, with EEE the VEE, EVE, EEEE and FEE nodes.
+  bool ev = true, eee = true;
+  EventMode events = EventMode::Solid;
+  /// Whether FF nodes are looked for too: free lines in the planes of two facets, across
+  /// the inside of both (of one object: `self`).  They end no arc, so they come only when
+  /// asked for.  Facets in parallel planes have none, nor have those that are planar only
+  /// up to a tolerance; a facet that the line crosses several times counts once.
+  bool ff = false;
+  SkeletonPart part;
 };
 
 }  // namespace sightline

@@ -91,8 +91,8 @@ Point random_direction(SampleNumbers& numbers) {
 }
 
 Chord line_by_two_points(const Ball& ball, SampleNumbers& numbers) {
-  const Point from = ball.center + ball.radius * random_direction(numbers);
-  return {from, ball.center + ball.radius * random_direction(numbers)};
+  const Point from = ball.centre + ball.radius * random_direction(numbers);
+  return {from, ball.centre + ball.radius * random_direction(numbers)};
 }
 
 Chord line_by_direction(const Ball& ball, SampleNumbers& numbers) {
@@ -100,7 +100,7 @@ Chord line_by_direction(const Ball& ball, SampleNumbers& numbers) {
   const Point across = along.unitOrthogonal();
   const DiskPoint p = random_disk_point(numbers);
   const Point middle =
-      ball.center + ball.radius * (p.x * across + p.y * along.cross(across));
+      ball.centre + ball.radius * (p.x * across + p.y * along.cross(across));
   const Point half = ball.radius * std::sqrt(1 - p.squared_radius) * along;
   return {middle - half, middle + half};
 }

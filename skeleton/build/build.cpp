@@ -10,6 +10,7 @@
 
 #include "linespace/work/large_arrays.h"
 #include "linespace/work/parallel.h"
+#include "skeleton/build/between_faces.h"
 #include "skeleton/build/corner_views.h"
 #include "skeleton/build/eee_skeleton.h"
 #include "skeleton/build/face_pairs.h"
@@ -70,7 +71,7 @@ void build_ev(const Silhouettes& silhouettes, const SkeletonRequest& request,
       runs.size(), request, deadline, "EV arcs", skeleton.predicates,
       [&] {
         return std::make_unique<CornerViews>(silhouettes, part, pieces,
-                                             request.feature_size);
+                                             request.part.feature_size);
       },
       [&](CornerViews& viewer, std::size_t i) {
         return viewer.views(runs[i], [&] { return deadline.passed(); });
@@ -87,12 +88,12 @@ void build_ev(const Silhouettes& silhouettes, const SkeletonRequest& request,
 
 // What exact numbers cannot be made of is refused at the door.
 void check(const SkeletonRequest& request) {
-  if (request.near &&
-      !(request.near->centre.allFinite() && std::isfinite(request.near->radius) &&
-        request.near->radius >= 0)) {
+  if (request.part.near &&
+      !(request.part.near->centre.allFinite() &&
+        std::isfinite(request.part.near->radius) && request.part.near->radius >= 0)) {
     throw InvalidInput("a ball needs a finite centre and a finite radius, not below 0");
   }
-  if (!(std::isfinite(request.feature_size) && request.feature_size >= 0)) {
+  if (!(std::isfinite(request.part.feature_size) && request.part.feature_size >= 0)) {
     throw InvalidInput("a feature size must be finite and not below 0");
   }
 }
@@ -112,10 +113,15 @@ void ask_for_all(const Scene& scene, const SkeletonRequest& request, Skeleton& s
 
 Skeleton build_skeleton(const Scene& scene, const SkeletonRequest& request) {
   check(request);
+  if (const auto wider = internal::between_objects(scene, request.part)) {
+    SkeletonRequest wide = request;
+    wide.part = *wider;
+    return internal::between_faces(scene, build_skeleton(scene, wide), request);
+  }
   const internal::Deadline deadline(request);
   Skeleton skeleton;
   skeleton.events = request.events;
-  skeleton.simplified = internal::simplified_by(scene, request.feature_size);
+  skeleton.simplified = internal::simplified_by(scene, request.part.feature_size);
   const StageCounts before = thread_stage_counts();
   std::optional<Silhouettes> silhouettes;
   NodeJoiner nodes(skeleton);

@@ -38,7 +38,7 @@ bool in_box(const std::array<Point, 2>& box, const Point& p) {
 }
 
 // Some point of the closed segment pq is no farther than the radius from the centre.
-bool within(const SkeletonRequest::Ball& ball, const Point& p, const Point& q) {
+bool within(const Ball& ball, const Point& p, const Point& q) {
   for (int i = 0; i < 3; ++i) {
     // Rounding is monotone: what exceeds the radius rounded exceeds it exactly.
     if (std::min(p[i], q[i]) - ball.centre[i] > ball.radius) return false;
@@ -99,19 +99,19 @@ class Membership {
 class Sources {
  public:
   Sources(const Silhouettes& g, const SkeletonRequest& request)
-      : g_(g), objects_(request.through_objects), any_(asked(request)) {
+      : g_(g), objects_(request.part.through_objects), any_(asked(request)) {
     const Scene& scene = g.scene();
-    if (request.through_faces.empty()) return;
+    if (request.part.through_faces.empty()) return;
     faces_.resize(scene.faces().size());
     facets_.resize(scene.facets().size());
     points_.resize(scene.points().size());
-    for (const int f : request.through_faces) {
+    for (const int f : request.part.through_faces) {
       faces_[f] = facets_[scene.faces()[f].facet] = 1;
       for (const int p : scene.face_points(f)) points_[p] = 1;
     }
   }
   [[nodiscard]] static bool asked(const SkeletonRequest& request) {
-    return !request.through_objects.empty() || !request.through_faces.empty();
+    return !request.part.through_objects.empty() || !request.part.through_faces.empty();
   }
   [[nodiscard]] bool has_star(int star) const {
     const int p = g_.stars()[star].point;
@@ -173,9 +173,9 @@ struct Roles {
 Roles ridge_roles(const Membership& m, int ridge, const SkeletonRequest& request) {
   Roles roles{};
   for (int k = 0; k < 2; ++k) {
-    roles.objects[k] = m.ridge_on(ridge, request.outer_objects[k]);
-    roles.boxes[k] =
-        !request.between_boxes || m.ridge_in(ridge, (*request.between_boxes)[k]);
+    roles.objects[k] = m.ridge_on(ridge, request.part.outer_objects[k]);
+    roles.boxes[k] = !request.part.between_boxes ||
+                     m.ridge_in(ridge, (*request.part.between_boxes)[k]);
   }
   return roles;
 }
@@ -183,9 +183,9 @@ Roles ridge_roles(const Membership& m, int ridge, const SkeletonRequest& request
 Roles star_roles(const Membership& m, int star, const SkeletonRequest& request) {
   Roles roles{};
   for (int k = 0; k < 2; ++k) {
-    roles.objects[k] = m.star_on(star, request.outer_objects[k]);
+    roles.objects[k] = m.star_on(star, request.part.outer_objects[k]);
     roles.boxes[k] =
-        !request.between_boxes || m.star_in(star, (*request.between_boxes)[k]);
+        !request.part.between_boxes || m.star_in(star, (*request.part.between_boxes)[k]);
   }
   return roles;
 }
@@ -241,32 +241,33 @@ void add_source(const Silhouettes& g, const Sources& sources, EvPart& part) {
 }
 
 bool one_sided(const SkeletonRequest& request) {
-  return request.outer_objects[0].empty() && request.outer_objects[1].empty() &&
-         !request.between_boxes;
+  return request.part.outer_objects[0].empty() && request.part.outer_objects[1].empty() &&
+         !request.part.between_boxes;
 }
 
 }  // namespace
 
 KeptGenerators kept_generators(const Silhouettes& g, const SkeletonRequest& request) {
   KeptGenerators out;
-  if (!request.region && !request.near && !(request.feature_size > 0)) return out;
+  if (!request.part.region && !request.part.near && !(request.part.feature_size > 0))
+    return out;
   const Scene& scene = g.scene();
   const Membership m(g);
   for (std::size_t i = 0; i < g.ridges().size(); ++i) {
     const Point& p = scene.point(g.ridges()[i].points[0]);
     const Point& q = scene.point(g.ridges()[i].points[1]);
     out.ridges.push_back(
-        (!request.region || m.ridge_in(static_cast<int>(i), *request.region)) &&
-        (!request.near || within(*request.near, p, q)) &&
-        !(request.feature_size > 0 && shorter(p, q, request.feature_size)));
+        (!request.part.region || m.ridge_in(static_cast<int>(i), *request.part.region)) &&
+        (!request.part.near || within(*request.part.near, p, q)) &&
+        !(request.part.feature_size > 0 && shorter(p, q, request.part.feature_size)));
   }
   for (std::size_t i = 0; i < g.stars().size(); ++i) {
     const int point = g.stars()[i].point;
     const Point& p = scene.point(point);
-    out.stars.push_back(
-        (!request.region || in_box(*request.region, p)) &&
-        (!request.near || within(*request.near, p, p)) &&
-        !(request.feature_size > 0 && small_corner(scene, point, request.feature_size)));
+    out.stars.push_back((!request.part.region || in_box(*request.part.region, p)) &&
+                        (!request.part.near || within(*request.part.near, p, p)) &&
+                        !(request.part.feature_size > 0 &&
+                          small_corner(scene, point, request.part.feature_size)));
   }
   return out;
 }
@@ -311,19 +312,19 @@ EvPart ev_part(const Silhouettes& g, const SkeletonRequest& request) {
   EvPart part;
   const KeptGenerators keep = kept_generators(g, request);
   const bool through = Sources::asked(request);
-  if (keep.ridges.empty() && request.vertex_objects.empty() &&
-      request.edge_objects.empty() && one_sided(request) && !through) {
+  if (keep.ridges.empty() && request.part.vertex_objects.empty() &&
+      request.part.edge_objects.empty() && one_sided(request) && !through) {
     return part;
   }
   const Membership m(g);
   const Sources sources(g, request);
-  part.by_lines = through && request.through_far_ends;
+  part.by_lines = through && request.part.through_far_ends;
   // The upper four bits are for pairs of which the edge is on a source, the lower four
   // for those of which the vertex is.
   for (std::size_t i = 0; i < g.ridges().size(); ++i) {
     const int r = static_cast<int>(i);
     std::uint8_t bits = 0;
-    if (kept(keep.ridges, i) && m.ridge_on(r, request.edge_objects)) {
+    if (kept(keep.ridges, i) && m.ridge_on(r, request.part.edge_objects)) {
       bits = ridge_roles(m, r, request).offers();
       if (through && sources.has_ridge(r)) bits |= static_cast<std::uint8_t>(bits << 4);
     }
@@ -332,7 +333,7 @@ EvPart ev_part(const Silhouettes& g, const SkeletonRequest& request) {
   for (std::size_t i = 0; i < g.stars().size(); ++i) {
     const int s = static_cast<int>(i);
     std::uint8_t bits = 0;
-    if (kept(keep.stars, i) && m.star_on(s, request.vertex_objects)) {
+    if (kept(keep.stars, i) && m.star_on(s, request.part.vertex_objects)) {
       const std::uint8_t wants = star_roles(m, s, request).wants();
       if (!through || part.by_lines || sources.has_star(s)) bits |= wants;
       if (through) bits |= static_cast<std::uint8_t>(wants << 4);
@@ -393,7 +394,7 @@ EeePart eee_part(const Silhouettes& g, const SkeletonRequest& request) {
       for (const int p : g.ridges()[i].points) points.push_back(g.scene().point(p));
     }
     part.through_below = bits_below(g.ridge_tree(), part.through);
-    part.by_lines = request.through_far_ends;
+    part.by_lines = request.part.through_far_ends;
     if (part.by_lines) {
       part.source_faces = sources.faces();
       points = corners_of(g.scene(), part.source_faces);
@@ -452,18 +453,19 @@ FacetPart facet_part(const Silhouettes& g, const SkeletonRequest& request) {
       return objects.empty() || any_of(object, objects);
     };
     const bool here =
-        (!request.region || every_corner_in(*request.region)) &&
-        (!request.near || some_side([&](const Point& p, const Point& q) {
-          return within(*request.near, p, q);
+        (!request.part.region || every_corner_in(*request.part.region)) &&
+        (!request.part.near || some_side([&](const Point& p, const Point& q) {
+          return within(*request.part.near, p, q);
         })) &&
-        (!(request.feature_size > 0) || some_side([&](const Point& p, const Point& q) {
-          return !shorter(p, q, request.feature_size);
-        }));
+        (!(request.part.feature_size > 0) ||
+         some_side([&](const Point& p, const Point& q) {
+           return !shorter(p, q, request.part.feature_size);
+         }));
     Roles roles{};
     for (int k = 0; k < 2; ++k) {
-      roles.objects[k] = on(request.outer_objects[k]);
-      roles.boxes[k] =
-          !request.between_boxes || every_corner_in((*request.between_boxes)[k]);
+      roles.objects[k] = on(request.part.outer_objects[k]);
+      roles.boxes[k] = !request.part.between_boxes ||
+                       every_corner_in((*request.part.between_boxes)[k]);
     }
     std::uint8_t offers = here ? roles.offers() : 0;
     std::uint8_t wants = here ? roles.wants() : 0;

@@ -134,8 +134,8 @@ TEST(LinesOfBall, EndOnTheSphere) {
     for (std::uint64_t i = 0; i < 1000; ++i) {
       SampleNumbers numbers(1, i);
       const Chord c = line(kBall, numbers);
-      EXPECT_NEAR((c.from - kBall.center).norm(), kBall.radius, 1e-14);
-      EXPECT_NEAR((c.to - kBall.center).norm(), kBall.radius, 1e-14);
+      EXPECT_NEAR((c.from - kBall.centre).norm(), kBall.radius, 1e-14);
+      EXPECT_NEAR((c.to - kBall.centre).norm(), kBall.radius, 1e-14);
     }
   }
 }

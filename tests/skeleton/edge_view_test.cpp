@@ -244,7 +244,7 @@ TEST(EdgePieces, ChangeNoEvents) {
     EXPECT_EQ(cut_edges(uncut, g.ridges().size()), 0);
     SkeletonRequest request;
     request.ev = false;
-    request.region = {low, high};
+    request.part.region = {low, high};
     const Skeleton pieces = build_skeleton(scene, request);
     const Skeleton whole = build_skeleton(larger, request);
     ASSERT_EQ(pieces.eee_arcs.size(), whole.eee_arcs.size());

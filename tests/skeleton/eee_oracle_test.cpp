@@ -191,10 +191,10 @@ TEST(EeeOracle, APartIsThatPartOfTheWhole) {
   };
   SkeletonRequest between;
   between.ev = false;
-  between.outer_objects = {std::vector<int>{1, 2}, std::vector<int>{5, 7}};
+  between.part.outer_objects = {std::vector<int>{1, 2}, std::vector<int>{5, 7}};
   SkeletonRequest through;
   through.ev = false;
-  through.through_objects = {4};
+  through.part.through_objects = {4};
   std::vector<std::tuple<std::array<std::int32_t, 3>, double, double>> expected[2];
   const auto in = [](int o, std::initializer_list<int> set) {
     return std::find(set.begin(), set.end(), o) != set.end();

@@ -40,8 +40,8 @@ PolygonSoup slit_scene(double gap) {
 
 int arcs_between(const Scene& scene, const char* a, const char* b) {
   SkeletonRequest request;
-  request.vertex_objects = {scene.object_named(a)};
-  request.edge_objects = {scene.object_named(b)};
+  request.part.vertex_objects = {scene.object_named(a)};
+  request.part.edge_objects = {scene.object_named(b)};
   return static_cast<int>(testing::build_ev_skeleton(scene, request).arcs.size());
 }
 
@@ -64,8 +64,8 @@ TEST(EvSkeleton, PartsAreThoseOfTheWhole) {
   const Scene scene(testing::random_polytopes(11, 6, {.density = 0.2}));
   const Skeleton whole = testing::build_ev_skeleton(scene);
   SkeletonRequest request;
-  request.vertex_objects = {2};
-  request.edge_objects = {0, 4};
+  request.part.vertex_objects = {2};
+  request.part.edge_objects = {0, 4};
   const Skeleton part = testing::build_ev_skeleton(scene, request);
   const auto on = [&](int point, int object) {
     const auto faces = scene.faces_at(point);

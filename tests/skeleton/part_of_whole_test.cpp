@@ -74,10 +74,10 @@ struct Rule {
   const SkeletonRequest& request;
 
   [[nodiscard]] bool inside(int point) const {
-    if (!request.region) return true;
+    if (!request.part.region) return true;
     const Point& p = scene.point(point);
-    return (p.array() >= (*request.region)[0].array()).all() &&
-           (p.array() <= (*request.region)[1].array()).all();
+    return (p.array() >= (*request.part.region)[0].array()).all() &&
+           (p.array() <= (*request.part.region)[1].array()).all();
   }
   [[nodiscard]] bool edge_inside(int edge) const {
     const auto& p = scene.edges()[edge].points;
@@ -105,9 +105,9 @@ struct Rule {
     return request.ev && inside(a.vertex) && edge_inside(a.edge) &&
            std::any_of(faces.begin(), faces.end(),
                        [&](int f) {
-                         return has(request.vertex_objects, scene.faces()[f].object);
+                         return has(request.part.vertex_objects, scene.faces()[f].object);
                        }) &&
-           on(request.edge_objects, a.edge) && through(a) && between(a);
+           on(request.part.edge_objects, a.edge) && through(a) && between(a);
   }
   [[nodiscard]] bool at_vertex(const std::vector<int>& objects, int vertex) const {
     const auto faces = scene.faces_at(vertex);
@@ -116,23 +116,23 @@ struct Rule {
            });
   }
   [[nodiscard]] bool through(const SkeletonArc& a) const {
-    return at_vertex(request.through_objects, a.vertex) ||
-           on(request.through_objects, a.edge);
+    return at_vertex(request.part.through_objects, a.vertex) ||
+           on(request.part.through_objects, a.edge);
   }
   [[nodiscard]] bool between(const SkeletonArc& a) const {
-    const auto& o = request.outer_objects;
+    const auto& o = request.part.outer_objects;
     return (at_vertex(o[0], a.vertex) && on(o[1], a.edge)) ||
            (at_vertex(o[1], a.vertex) && on(o[0], a.edge));
   }
   bool operator()(const EeeArc& a) const {
-    const auto& o = request.outer_objects;
+    const auto& o = request.part.outer_objects;
     return request.eee &&
            std::all_of(a.edges.begin(), a.edges.end(),
                        [&](int e) { return edge_inside(e); }) &&
            ((on(o[0], a.edges[0]) && on(o[1], a.edges[2])) ||
             (on(o[0], a.edges[2]) && on(o[1], a.edges[0]))) &&
            std::any_of(a.edges.begin(), a.edges.end(),
-                       [&](int e) { return on(request.through_objects, e); });
+                       [&](int e) { return on(request.part.through_objects, e); });
   }
 };
 
@@ -160,16 +160,16 @@ std::vector<std::pair<std::string, SkeletonRequest>> parts(const Scene& scene) {
   add("EV alone").eee = false;
   add("EEE alone").ev = false;
   for (const int a : {0, n / 2, n - 1}) {
-    add("through " + std::to_string(a)).through_objects = {a};
-    add("vertices of " + std::to_string(a)).vertex_objects = {a};
-    add("edges of " + std::to_string(a)).edge_objects = {a};
+    add("through " + std::to_string(a)).part.through_objects = {a};
+    add("vertices of " + std::to_string(a)).part.vertex_objects = {a};
+    add("edges of " + std::to_string(a)).part.edge_objects = {a};
     SkeletonRequest& between = add("between " + std::to_string(a) + " and others");
-    between.vertex_objects = {a};
-    between.edge_objects = {(a + 1) % n, (a + 2) % n};
-    between.outer_objects = {between.vertex_objects, between.edge_objects};
+    between.part.vertex_objects = {a};
+    between.part.edge_objects = {(a + 1) % n, (a + 2) % n};
+    between.part.outer_objects = {between.part.vertex_objects, between.part.edge_objects};
   }
   const auto& b = scene.bounds();
-  add("region").region = {b[0] + 0.15 * (b[1] - b[0]), b[1]};
+  add("region").part.region = {b[0] + 0.15 * (b[1] - b[0]), b[1]};
   return result;
 }
 

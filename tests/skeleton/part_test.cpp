@@ -127,7 +127,7 @@ TEST_F(Parts, NearAPoint) {
   const Point centre = 0.5 * (scene_.bounds()[0] + scene_.bounds()[1]);
   const double radius = 1.5;
   SkeletonRequest request = everything();
-  request.near = {centre, radius};
+  request.part.near = {centre, radius};
   // The nearest of many points along an edge, to compare with the exact answer: closer
   // ones than the sampling's error do not occur here.
   const auto edge_near = [&](int e) {
@@ -163,7 +163,7 @@ TEST(PartsOfBoxes, ABallThatTouchesAnEdge) {
       testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}, {{3, 0, -1}, {4, 1, 0.5}}}));
   const auto arcs = [&](double radius) {
     SkeletonRequest request;
-    request.near = {{4, 0.5, 5}, radius};
+    request.part.near = {{4, 0.5, 5}, radius};
     return build_skeleton(scene, request).arcs.size();
   };
   EXPECT_GT(arcs(5), arcs(std::nextafter(5, 0)));
@@ -176,7 +176,7 @@ TEST_F(Parts, BetweenTwoBoxes) {
   const std::array<Point, 2> left = {low, low + Point(0.55 * size[0], size[1], size[2])};
   const std::array<Point, 2> right = {low + Point(0.35 * size[0], 0, 0), high};
   SkeletonRequest request = everything();
-  request.between_boxes = {left, right};
+  request.part.between_boxes = {left, right};
   expect_part(request,
               {[&](const SkeletonArc& a) {
                  return (vertex_in(a.vertex, left) && edge_in(a.edge, right)) ||
@@ -198,9 +198,9 @@ TEST_F(Parts, BetweenObjectsThroughOthersInARegion) {
   std::array<Point, 2> region = scene_.bounds();
   region[1][2] = 0.8 * region[1][2] + 0.2 * region[0][2];
   SkeletonRequest request = everything();
-  request.outer_objects = {a, b};
-  request.through_objects = source;
-  request.region = region;
+  request.part.outer_objects = {a, b};
+  request.part.through_objects = source;
+  request.part.region = region;
   const auto in = [](const std::vector<int>& set, int o) {
     return std::ranges::find(set, o) != set.end();
   };
@@ -256,7 +256,7 @@ TEST_F(Parts, AboveAFeatureSize) {
       return (a.range[1] - a.range[0]) * (scene_.point(q) - scene_.point(p)).norm();
     };
     SkeletonRequest request = everything();
-    request.feature_size = size;
+    request.part.feature_size = size;
     expect_part(
         request,
         {[&](const SkeletonArc& a) {
@@ -295,7 +295,7 @@ TEST(FeatureSize, AnEdgeOfThatLengthStays) {
       testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}, {{3, 0.5, 0.25}, {4, 1.5, 1.25}}}));
   const auto left_out = [&](double size) {
     SkeletonRequest request;
-    request.feature_size = size;
+    request.part.feature_size = size;
     return build_skeleton(scene, request).simplified.edges.size();
   };
   EXPECT_EQ(left_out(1), 0u);
@@ -304,7 +304,7 @@ TEST(FeatureSize, AnEdgeOfThatLengthStays) {
 
 TEST_F(Parts, FeatureSizeZeroIsEverything) {
   SkeletonRequest request = everything();
-  request.feature_size = 0;
+  request.part.feature_size = 0;
   const Skeleton all = build_skeleton(scene_, request);
   EXPECT_EQ(all.generator_pool, whole_.generator_pool);
   EXPECT_EQ(all.arcs.size(), whole_.arcs.size());
@@ -319,7 +319,7 @@ TEST(FeatureSize, SmallObjectsOccludeAndAreListed) {
   three.push_back({{2, 0.45, 0.46}, {2.1, 0.56, 0.57}});
   const Scene without(testing::boxes_soup(two)), with(testing::boxes_soup(three));
   SkeletonRequest request;
-  request.feature_size = 0.2;
+  request.part.feature_size = 0.2;
   const Skeleton part = build_skeleton(with, request);
   EXPECT_EQ(part.simplified.objects, std::vector<std::int32_t>{2});
   EXPECT_EQ(part.simplified.edges.size(), 12u);

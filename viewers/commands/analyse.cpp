@@ -466,7 +466,7 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
   // writing: without it the report would look like that of a sound scene.
   SkeletonRequest request;
   request.ff = true;
-  request.region = region_box(options.region);
+  request.part.region = region_box(options.region);
   const Scene scene = load(session, options, folder);
   log.done("load the scene");
   const std::vector<Defect> defects = validate(scene, session.with_grace());
@@ -507,7 +507,7 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
   std::vector<PagePicture> pictures;
   session.write("pictures", [&](const Request& writing) {
     if (!lines) lines.emplace(scene, writing);
-    auto drawn = draw_pictures(scene, *lines, skeleton, highlights, request.region,
+    auto drawn = draw_pictures(scene, *lines, skeleton, highlights, request.part.region,
                                options.up.empty() ? -1 : options.up[0] - 'x', writing);
     for (const PagePicture& picture : drawn) {
       write_whole(folder.announce(picture.file), picture.png);

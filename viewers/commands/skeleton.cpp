@@ -7,10 +7,9 @@
 
 #include "linespace/perturb.h"
 #include "linespace/work/stage.h"
-#include "skeleton/request.h"
+#include "skeleton/build.h"
 #include "viewers/commands/command_line.h"
 #include "viewers/commands/outputs.h"
-#include "viewers/selection.h"
 #include "viewers/skeleton_file.h"
 #include "viewers/skeleton_queries.h"
 #include "viewers/vtk_export.h"
@@ -91,31 +90,35 @@ SkeletonRequest request_of(const SkeletonOptions& options) {
   request.precision = options.precision;
   if (options.events == "polygon") request.events = EventMode::Polygon;
   request.threads = options.threads;
-  request.region = region_box(options.region);
+  request.part.region = region_box(options.region);
   request.ev = std::ranges::find(options.kinds, "EV") != options.kinds.end();
   request.eee = std::ranges::find(options.kinds, "EEE") != options.kinds.end();
   request.ff = std::ranges::find(options.kinds, "FF") != options.kinds.end();
   request.budget_bytes = options.budget_bytes;
-  request.feature_size = options.feature_size;
+  request.part.feature_size = options.feature_size;
   if (!options.near.empty()) {
     const Point centre(options.near[0], options.near[1], options.near[2]);
     if (!centre.allFinite()) throw UsageError("--near: three finite numbers");
-    request.near = {centre, options.radius};
+    request.part.near = {centre, options.radius};
   }
   if (!options.between_boxes.empty()) {
-    request.between_boxes = {*region_box(options.between_boxes[0], "--between-boxes"),
-                             *region_box(options.between_boxes[1], "--between-boxes")};
+    request.part.between_boxes = {
+        *region_box(options.between_boxes[0], "--between-boxes"),
+        *region_box(options.between_boxes[1], "--between-boxes")};
   }
   return request;
 }
 
-Selection selection_of(const SkeletonOptions& options) {
-  Selection selection;
+// The arcs between two groups, or those whose lines meet one.
+void select(const SkeletonOptions& options, const Scene& scene, SkeletonPart& part) {
   if (options.between.size() == 2) {
-    selection.between = {options.between[0], options.between[1]};
+    part.between_faces = {scene.faces_named(options.between[0]),
+                          scene.faces_named(options.between[1])};
   }
-  if (!options.through.empty()) selection.through = options.through;
-  return selection;
+  if (!options.through.empty()) {
+    part.through_faces = scene.faces_named(options.through);
+    part.through_far_ends = true;
+  }
 }
 
 Json options_json(const SkeletonOptions& options) {
@@ -257,7 +260,8 @@ Made made_skeleton(Session& session, const SkeletonOptions& options, const Scene
   if (options.saved.empty()) {
     SkeletonRequest request = request_of(options);
     session.limit(request);
-    return {build_selected(scene, request, selection_of(options)), options_json(options)};
+    select(options, scene, request.part);
+    return {build_skeleton(scene, request), options_json(options)};
   }
   StoredSkeleton stored = session.read([&] { return read_skeleton_json(options.saved); });
   check_fits(stored, scene);

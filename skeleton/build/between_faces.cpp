@@ -1,28 +1,25 @@
-#include "viewers/selection.h"
+#include "skeleton/build/between_faces.h"
 
 #include <algorithm>
 #include <functional>
 #include <set>
+#include <span>
 
-#include "skeleton/build.h"
-
-namespace sightline::viewers {
+namespace sightline::internal {
 namespace {
 
-/// The points and edges of a group's faces.
+// The points, edges and facets of some faces; all where none are named.
 class Members {
  public:
-  Members(const Scene& scene, const std::string& group) {
-    std::set<int> objects;
+  Members(const Scene& scene, std::span<const int> faces) : all_(faces.empty()) {
+    if (all_) return;
     facets_.resize(scene.facets().size());
     points_.resize(scene.points().size());
     edges_.resize(scene.edges().size());
-    for (const int f : scene.faces_named(group)) {
+    for (const int f : faces) {
       facets_[scene.faces()[f].facet] = 1;
-      objects.insert(scene.faces()[f].object);
       for (const int p : scene.face_points(f)) points_[p] = 1;
     }
-    objects_.assign(objects.begin(), objects.end());
     for (std::size_t e = 0; e < edges_.size(); ++e) {
       // A merged edge names one face of each facet along it.
       edges_[e] =
@@ -32,17 +29,16 @@ class Members {
     }
   }
 
-  [[nodiscard]] const std::vector<int>& objects() const { return objects_; }
-  [[nodiscard]] bool vertex(int p) const { return points_[p] != 0; }
-  [[nodiscard]] bool facet(int f) const { return facets_[f] != 0; }
-  [[nodiscard]] bool edge(int e) const { return e >= 0 && edges_[e] != 0; }
+  [[nodiscard]] bool vertex(int p) const { return all_ || points_[p] != 0; }
+  [[nodiscard]] bool facet(int f) const { return all_ || facets_[f] != 0; }
+  [[nodiscard]] bool edge(int e) const { return all_ || (e >= 0 && edges_[e] != 0); }
 
  private:
   std::vector<char> points_, edges_, facets_;
-  std::vector<int> objects_;
+  bool all_;
 };
 
-/// What belongs to a part of the skeleton.
+// What belongs to a part of the skeleton.
 struct Part {
   std::function<bool(int vertex, int edge)> ev;
   std::function<bool(const EeeArc&)> eee;
@@ -132,10 +128,31 @@ Skeleton filtered(const Skeleton& whole, const Part& part,
   return out;
 }
 
-Skeleton build_between(const Scene& scene, SkeletonRequest request,
-                       const std::array<std::string, 2>& groups) {
-  const Members a(scene, groups[0]), b(scene, groups[1]);
-  request.outer_objects = {a.objects(), b.objects()};
+std::vector<int> objects_of(const Scene& scene, std::span<const int> faces) {
+  std::set<int> objects;
+  for (const int f : faces) objects.insert(scene.faces()[f].object);
+  return {objects.begin(), objects.end()};
+}
+
+}  // namespace
+
+std::optional<SkeletonPart> between_objects(const Scene& scene,
+                                            const SkeletonPart& part) {
+  const auto& faces = part.between_faces;
+  if (faces[0].empty() && faces[1].empty()) return std::nullopt;
+  SkeletonPart wider = part;
+  wider.between_faces = {};
+  // Arcs between other objects stay out, where no objects are asked for besides.
+  if (part.outer_objects[0].empty() && part.outer_objects[1].empty()) {
+    wider.outer_objects = {objects_of(scene, faces[0]), objects_of(scene, faces[1])};
+  }
+  return wider;
+}
+
+Skeleton between_faces(const Scene& scene, const Skeleton& wider,
+                       const SkeletonRequest& request) {
+  const Members a(scene, request.part.between_faces[0]);
+  const Members b(scene, request.part.between_faces[1]);
   const Part part{[&](int vertex, int edge) {
                     return (a.vertex(vertex) && b.edge(edge)) ||
                            (b.vertex(vertex) && a.edge(edge));
@@ -147,23 +164,7 @@ Skeleton build_between(const Scene& scene, SkeletonRequest request,
                   [&](int f, int g) {
                     return (a.facet(f) && b.facet(g)) || (b.facet(f) && a.facet(g));
                   }};
-  return filtered(build_skeleton(scene, request), part, request);
+  return filtered(wider, part, request);
 }
 
-Skeleton build_through(const Scene& scene, SkeletonRequest request,
-                       const std::string& group) {
-  request.through_faces = scene.faces_named(group);
-  request.through_far_ends = true;
-  return build_skeleton(scene, request);
-}
-
-}  // namespace
-
-Skeleton build_selected(const Scene& scene, const SkeletonRequest& request,
-                        const Selection& selection) {
-  if (selection.between) return build_between(scene, request, *selection.between);
-  if (selection.through) return build_through(scene, request, *selection.through);
-  return build_skeleton(scene, request);
-}
-
-}  // namespace sightline::viewers
+}  // namespace sightline::internal

@@ -1,11 +1,11 @@
 // A part of the skeleton, built on its own, is that part of the whole.
 
-#include "viewers/selection.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
+#include <optional>
 #include <set>
 
 #include "linespace/mesh_io.h"
@@ -16,6 +16,24 @@
 
 namespace sightline::viewers {
 namespace {
+
+struct Selection {
+  std::optional<std::array<std::string, 2>> between;
+  std::optional<std::string> through;
+};
+
+Skeleton build_selected(const Scene& scene, SkeletonRequest request,
+                        const Selection& selection) {
+  if (selection.between) {
+    request.part.between_faces = {scene.faces_named((*selection.between)[0]),
+                                  scene.faces_named((*selection.between)[1])};
+  }
+  if (selection.through) {
+    request.part.through_faces = scene.faces_named(*selection.through);
+    request.part.through_far_ends = true;
+  }
+  return build_skeleton(scene, request);
+}
 
 // Arcs and nodes as values: numbers of nodes differ between a part and the whole.
 using NodeValue = std::pair<std::string, std::vector<Generator>>;
@@ -180,7 +198,7 @@ void expect_parts_of_the_whole(const Scene& scene, const SkeletonRequest& reques
   EXPECT_EQ(part.arcs.empty(), !request.ev);
 }
 
-TEST(Selection, PartsAreThoseOfTheWholeRoom) {
+TEST(PartsByGroups, PartsAreThoseOfTheWholeRoom) {
   const Scene room(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj"));
   for (const auto& [ev, eee] :
        {std::pair(true, true), std::pair(true, false), std::pair(false, true)}) {
@@ -193,7 +211,7 @@ TEST(Selection, PartsAreThoseOfTheWholeRoom) {
   }
 }
 
-TEST(Selection, PartsAreThoseOfTheWholeAmongPolytopes) {
+TEST(PartsByGroups, PartsAreThoseOfTheWholeAmongPolytopes) {
   for (const std::uint64_t seed : {1, 2}) {
     const Scene scene(testing::random_polytopes(seed, 10));
     expect_parts_of_the_whole(scene, {}, scene.objects()[0].name,
@@ -201,7 +219,7 @@ TEST(Selection, PartsAreThoseOfTheWholeAmongPolytopes) {
   }
 }
 
-TEST(Selection, FaceRangesAreGroups) {
+TEST(PartsByGroups, FaceRangesAreGroups) {
   const Scene room(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj"));
   Selection by_name, by_range;
   by_name.through = "floor";
@@ -213,7 +231,7 @@ TEST(Selection, FaceRangesAreGroups) {
   EXPECT_THROW((void)build_selected(room, {}, by_name), InvalidInput);
 }
 
-TEST(Selection, KindsLeaveOutWhatWasNotAsked) {
+TEST(PartsByGroups, KindsLeaveOutWhatWasNotAsked) {
   const Scene room(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj"));
   SkeletonRequest request;
   request.ev = false;
