@@ -51,7 +51,7 @@ class Swath {
   /// A position s, exact: a rational number, or one with a square root.
   class Position {
    public:
-    /// The position that a double is.
+    /// The position that a double is.  Requires a finite one.
     explicit Position(double s);
     /// Rounded, off by at most 2^-48 of itself.
     [[nodiscard]] double value() const { return value_; }
