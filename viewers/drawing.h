@@ -15,11 +15,6 @@ namespace sightline::viewers {
 /// modellers and scanners have it, but z for STL, IFC and AC3D.
 [[nodiscard]] int guess_up_axis(const Scene& scene);
 
-/// True for objects that enclose or carry the others (walls, ground): thin in one
-/// direction, by a tenth of the scene, and reaching the scene's bounding box.  Only for
-/// looks.
-[[nodiscard]] std::vector<char> envelope_objects(const Scene& scene);
-
 /// Two different points.
 struct Look {
   Point eye, at;
@@ -108,15 +103,6 @@ void add_nodes(Drawing& drawing, const Skeleton& skeleton, std::span<const int> 
 
 /// A box's twelve edges, to show a region of interest.
 void add_box(Drawing& drawing, const std::array<Point, 2>& box, const Colour& colour);
-
-/// "EV", "EV_self"; "EEE", "EEE_self"; "VV", "VEE", "FvE_self", ...: the names of
-/// CONTRACT.md.
-[[nodiscard]] std::string kind_name(const SkeletonArc& arc);
-[[nodiscard]] std::string kind_name(const EeeArc& arc);
-[[nodiscard]] std::string kind_name(const SkeletonNode& node);
-
-/// Every name that kind_name() gives, arcs first.
-[[nodiscard]] std::vector<std::string> kind_names();
 
 /// At most `limit` of the numbers 0 to size-1, evenly spread, always the same.
 [[nodiscard]] std::vector<int> evenly_spread(std::size_t size, std::size_t limit);

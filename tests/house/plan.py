@@ -51,7 +51,6 @@ CIRCLES = {
     "linespace/silhouettes/silhouettes": "what is buried is found by the free parts of edges",
     "skeleton/nodes/node_contacts": "lists are kept in the form in which they are asked",
     "skeleton/skeleton_lines": "a part by far ends is cut by the lines of what is built",
-    "viewers/drawing": "a drawing is told in the palette's colours and the reverse",
 }
 
 MOST_FILES = 30

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "linespace/mesh_io.h"
+#include "viewers/kinds.h"
 
 namespace sightline::viewers {
 namespace {

@@ -13,6 +13,7 @@
 #include "skeleton/skeleton_lines.h"
 #include "tests/support/generators.h"
 #include "viewers/drawing.h"
+#include "viewers/kinds.h"
 
 namespace sightline::viewers {
 namespace {

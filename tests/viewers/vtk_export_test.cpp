@@ -19,7 +19,7 @@
 #include "skeleton/build.h"
 #include "viewers/answer.h"
 #include "viewers/drawing.h"
-#include "viewers/drawing.h"
+#include "viewers/kinds.h"
 #include "viewers/output_file.h"
 #include "viewers/palette.h"
 #include "viewers/skeleton_file.h"

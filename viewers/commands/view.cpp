@@ -15,6 +15,7 @@
 #include "viewers/commands/command_line.h"
 #include "viewers/commands/outputs.h"
 #include "viewers/drawing.h"
+#include "viewers/kinds.h"
 #include "viewers/skeleton_file.h"
 #include "viewers/vtk_export.h"
 #include "viewers/window.h"

@@ -14,6 +14,7 @@
 #include "viewers/far_ends.h"
 #include "viewers/files/json_parse.h"
 #include "viewers/json_text.h"
+#include "viewers/kinds.h"
 
 namespace sightline::viewers {
 namespace {

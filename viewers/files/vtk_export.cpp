@@ -31,6 +31,7 @@
 
 #include "linespace/work/stage.h"
 #include "viewers/json_text.h"
+#include "viewers/kinds.h"
 #include "viewers/output_file.h"
 #include "viewers/palette.h"
 

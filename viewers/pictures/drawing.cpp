@@ -9,6 +9,8 @@
 
 #include "linespace/work/stage.h"
 #include "viewers/clip.h"
+#include "viewers/envelope.h"
+#include "viewers/kinds.h"
 #include "viewers/palette.h"
 
 namespace sightline::viewers {
@@ -158,25 +160,6 @@ double entropy(const std::vector<int>& ids, const std::vector<char>& counts) {
 }
 
 }  // namespace
-
-std::vector<char> envelope_objects(const Scene& scene) {
-  const auto [low, high] = scene.bounds();
-  std::vector<char> envelope;
-  for (const Object& object : scene.objects()) {
-    Point from = high, to = low;
-    for (const int f : object.faces) {
-      for (const int p : scene.face_points(f)) {
-        from = from.cwiseMin(scene.point(p));
-        to = to.cwiseMax(scene.point(p));
-      }
-    }
-    const bool reaches =
-        (from.array() == low.array()).any() || (to.array() == high.array()).any();
-    const bool thin = ((to - from).array() <= 0.1 * (high - low).array()).any();
-    envelope.push_back(reaches && thin ? 1 : 0);
-  }
-  return envelope;
-}
 
 int guess_up_axis(const Scene& scene) {
   const Point extent = scene.bounds()[1] - scene.bounds()[0];
@@ -437,69 +420,6 @@ void add_box(Drawing& drawing, const std::array<Point, 2>& box, const Colour& co
       drawing.strokes.push_back({{corner(i), corner(i | bit)}, colour, 2, 0.9F, 0.35F});
     }
   }
-}
-
-std::string kind_name(const SkeletonArc& arc) { return arc.self ? "EV_self" : "EV"; }
-
-std::string kind_name(const EeeArc& arc) { return arc.self ? "EEE_self" : "EEE"; }
-
-std::string kind_name(const SkeletonNode& node) {
-  std::string name;
-  switch (node.kind) {
-    case NodeKind::VV:
-      name = "VV";
-      break;
-    case NodeKind::VEE:
-      name = "VEE";
-      break;
-    case NodeKind::EVE:
-      name = "EVE";
-      break;
-    case NodeKind::FvE:
-      name = "FvE";
-      break;
-    case NodeKind::EEEE:
-      name = "EEEE";
-      break;
-    case NodeKind::FEE:
-      name = "FEE";
-      break;
-    case NodeKind::FF:
-      name = "FF";
-      break;
-    case NodeKind::Saddle:
-      name = "saddle";
-      break;
-    case NodeKind::Pierce:
-      name = "pierce";
-      break;
-    case NodeKind::Degenerate:
-      return "degenerate";
-  }
-  return node.self ? name + "_self" : name;
-}
-
-std::vector<std::string> kind_names() {
-  std::vector<std::string> names;
-  for (const bool self : {false, true}) {
-    SkeletonArc ev{};
-    ev.self = self;
-    EeeArc eee{};
-    eee.self = self;
-    names.insert(names.end(), {kind_name(ev), kind_name(eee)});
-  }
-  for (const bool self : {false, true}) {
-    for (const NodeKind kind :
-         {NodeKind::VV, NodeKind::VEE, NodeKind::EVE, NodeKind::FvE, NodeKind::EEEE,
-          NodeKind::FEE, NodeKind::FF, NodeKind::Saddle, NodeKind::Pierce}) {
-      SkeletonNode node{};
-      node.kind = kind;
-      node.self = self;
-      names.push_back(kind_name(node));
-    }
-  }
-  names.emplace_back("degenerate");
-  return names;
 }
 
 std::vector<int> evenly_spread(std::size_t size, std::size_t limit) {

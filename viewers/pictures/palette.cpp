@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "viewers/drawing.h"
+#include "viewers/envelope.h"
 
 namespace sightline::viewers {
 

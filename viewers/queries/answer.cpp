@@ -7,6 +7,7 @@
 #include <set>
 
 #include "viewers/drawing.h"
+#include "viewers/kinds.h"
 #include "viewers/version.h"
 
 namespace sightline::viewers {
