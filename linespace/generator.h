@@ -21,8 +21,8 @@ struct Generator {
   friend auto operator<=>(const Generator&, const Generator&) = default;
 };
 
-/// Bound on the error of a rounded position on an edge, a parameter from 0 to 1, where the
-/// precision is Exact.
+/// Bound on the error of a rounded position on an edge, a parameter from 0 to 1, where
+/// the precision is Exact.
 inline constexpr double kRangeError = 0x1p-40;
 
 }  // namespace sightline

@@ -68,8 +68,8 @@ struct Chord {
 /// so |cos cos'| / r^2 is constant.)
 [[nodiscard]] Chord line_by_two_points(const Ball& ball, SampleNumbers& numbers);
 
-/// The same by the other classical way: a uniform direction, and a uniform point of the
-/// disk across it through the ball's centre.
+/// A uniform line among those that meet the ball, by the other classical way: a uniform
+/// direction, and a uniform point of the disk across it through the ball's centre.
 [[nodiscard]] Chord line_by_direction(const Ball& ball, SampleNumbers& numbers);
 
 /// Uniform points of a set of convex planar polygons, by area.  A point costs a binary

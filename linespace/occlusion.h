@@ -63,7 +63,8 @@ struct FreeSegment {
 /// member function is safe to call from several threads.
 class OcclusionIndex {
  public:
-  /// Of the request, budget, stop and progress count.  Throws Stopped.
+  /// The request's budget, stop and progress are heard, its other members are not asked.
+  /// Throws Stopped when time is over.
   explicit OcclusionIndex(const Scene& scene, const Request& request = {});
   ~OcclusionIndex();
   OcclusionIndex(OcclusionIndex&&) noexcept;

@@ -51,7 +51,7 @@ class Stopped : public std::runtime_error {
   Stopped(std::string stage, double share);
 
   [[nodiscard]] const std::string& stage() const { return stage_; }
-  /// Of the stage, done by then, in [0, 1].
+  /// The share of that stage that was done by then, in [0, 1].
   [[nodiscard]] double share() const { return share_; }
 
  private:

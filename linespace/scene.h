@@ -235,7 +235,8 @@ class Scene {
 [[nodiscard]] std::vector<Defect> find_self_touching(const Scene& scene);
 
 /// Every defect of the scene: those found while loading, then find_self_touching.
-/// Of the request, budget, stop and progress count.  Throws Stopped.
+/// The request's budget, stop and progress are heard, its other members are not asked.
+/// Throws Stopped when time is over.
 [[nodiscard]] std::vector<Defect> validate(const Scene& scene,
                                            const Request& request = {});
 

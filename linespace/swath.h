@@ -79,10 +79,12 @@ class Swath {
 
   /// The curve that the lines mark on a plane: points (x, y, z) / w, each of the four a
   /// polynomial c0 + c1 s + c2 s^2 whose coefficients are correct to 2^-49 of themselves
-  /// before a common scale.  Of a vertex and an edge the curve is straight.
+  /// before a common scale.  The curve of a vertex and an edge is
+  /// straight.
   struct Trace {
     std::array<std::array<double, 3>, 4> coefficients;
-    /// Of the lines through three edges: a conic, straight only by chance.
+    /// True for lines through three edges: their curve is a conic, straight only by
+    /// chance.
     bool curved;
     /// Not finite where the line is parallel to the plane.
     [[nodiscard]] Point at(double s) const;

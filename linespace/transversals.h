@@ -88,7 +88,7 @@ class ExactLine {
   [[nodiscard]] static std::optional<ExactLine> in_planes(const PlaneThrough& p,
                                                           const PlaneThrough& q);
 
-  /// The same line, turned round.  Lines come oriented so that the first nonzero
+  /// This line, turned round.  Lines come oriented so that the first nonzero
   /// component of their direction is positive, except from through(a, b).
   [[nodiscard]] ExactLine reversed() const;
   /// True when the Pluecker coordinates are rational, up to a common factor.
@@ -96,7 +96,7 @@ class ExactLine {
   /// Signs of the components of the direction.
   [[nodiscard]] std::array<Sign, 3> direction_signs() const;
 
-  /// As side() of two lines given by points: on which side of this line m passes; Zero
+  /// On which side of this line m passes, as side() says of two lines by points; Zero
   /// exactly when they are coplanar.  Also the plane test: side({a, b}) is the side of
   /// the plane through this line and a on which b lies (orient3d of the two directions'
   /// points with a and b).
@@ -112,7 +112,7 @@ class ExactLine {
   /// it meets l first, Zero when it meets both in one point.  Requires side() Zero for
   /// both and neither parallel to this line.
   [[nodiscard]] Sign contact_order(const LineThrough& l, const LineThrough& m) const;
-  /// The same for the contact with m and a point of this line.
+  /// Order of this line's contact with m and of a point of this line, likewise.
   [[nodiscard]] Sign contact_order(const LineThrough& m, const Eigen::Vector3d& p) const;
 
   /// The point where this line meets m.  The same requirements.

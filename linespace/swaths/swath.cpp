@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <mutex>
 #include <utility>
 
@@ -179,7 +180,9 @@ std::vector<std::array<Point, 2>> Swath::rungs(std::array<double, 2> range,
     // At a = 1/2, b = 1 / (1 + k).
     const double b =
         share(last_parameter(middle), last_parameter(from), last_parameter(to));
-    const double root_k = std::sqrt((1 - b) / std::max(b, 1e-300));
+    // The smallest normal double keeps k finite where b is 0.
+    const double root_k =
+        std::sqrt((1 - b) / std::max(b, std::numeric_limits<double>::min()));
     const bool fine = change.norm() <= 2 * (1 + root_k) * deviation;
     if (fine || !(middle > from && middle < to)) {
       out.push_back(end);

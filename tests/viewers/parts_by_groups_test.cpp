@@ -169,6 +169,19 @@ void expect_parts_of_the_whole(const Scene& scene, const SkeletonRequest& reques
                                    [&](const Owner& o) { return o.edge(arc.edges[2]); });
                   }),
               all);
+  // One group alone: what has an outer contact on it.
+  SkeletonRequest of_one = request;
+  of_one.part.between_faces[0] = scene.faces_named(first);
+  expect_same(all_values(build_skeleton(scene, of_one)),
+              values_of(
+                  whole, request.ev,
+                  [&](const SkeletonArc& arc) {
+                    return a.vertex(arc.vertex) || a.edge(arc.edge);
+                  },
+                  [&](const EeeArc& arc) {
+                    return a.edge(arc.edges[0]) || a.edge(arc.edges[2]);
+                  }),
+              all);
   selection = {};
   selection.through = first;
   const SkeletonLines lines(scene);
