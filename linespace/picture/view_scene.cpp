@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "linespace/picture/patches.h"
@@ -22,7 +23,12 @@ void ViewScene::add_lines() {
   const Scene& scene = *scene_;
   for (int e = 0; e < static_cast<int>(scene.edges().size()); ++e) {
     lines_.push_back({scene.edges()[e].points, {e, {-1, -1}}});
+    edge_ids_.push_back(e);
   }
+  std::ranges::stable_sort(edge_ids_, {}, [&](int e) { return scene.edges()[e].object; });
+  edge_starts_.assign(scene.objects().size() + 1, 0);
+  for (const Edge& e : scene.edges()) ++edge_starts_[e.object + 1];
+  std::partial_sum(edge_starts_.begin(), edge_starts_.end(), edge_starts_.begin());
   // Flat sides at which a facet is bent, by their points.
   std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> flat_sides;
   for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {

@@ -40,6 +40,12 @@ class ViewScene {
   /// Crossings of a face with others, as line numbers.
   [[nodiscard]] std::span<const int> crossings_of(int face) const;
 
+  /// Scene edges of an object.
+  [[nodiscard]] std::span<const int> edges_of(int object) const {
+    return std::span(edge_ids_).subspan(
+        edge_starts_[object], edge_starts_[object + 1] - edge_starts_[object]);
+  }
+
   /// Points are numbered as in the scene; then come the ends of crossings.
   [[nodiscard]] int point_count() const {
     return static_cast<int>(scene_->points().size() + constructed_.size());
@@ -78,6 +84,7 @@ class ViewScene {
   std::vector<ViewLine> lines_;
   std::vector<int> side_lines_;
   std::vector<int> crossing_starts_, crossing_lines_;  // by face
+  std::vector<int> edge_starts_, edge_ids_;              // by object
   std::vector<ExactPoint> constructed_;
   std::vector<int> patches_;
 };
