@@ -36,8 +36,8 @@ struct Viewpoint {
 /// Throws InvalidInput for the null vector.
 [[nodiscard]] Viewpoint eye_far_along(const Point& direction);
 /// Coordinates as decimal numbers, which are read as the nearest doubles, or as fractions
-/// "p/q" of integers, which are exact.  Throws InvalidInput for other text, for what is not
-/// finite, and for a direction of length 0.
+/// "p/q" of integers, which are exact.  Throws InvalidInput for other text, for what is
+/// not finite, and for a direction of length 0.
 [[nodiscard]] Viewpoint viewpoint(Viewpoint::Kind kind,
                                   const std::array<std::string, 3>& coordinates);
 
@@ -130,6 +130,7 @@ enum class AccidentKind : std::uint8_t {
 struct Accident {
   AccidentKind kind;
   std::vector<Generator> generators;  ///< ascending
+  friend auto operator<=>(const Accident&, const Accident&) = default;
 };
 
 struct PointView {

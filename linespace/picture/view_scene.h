@@ -32,6 +32,9 @@ class ViewScene {
   [[nodiscard]] const Silhouettes& silhouettes() const { return silhouettes_; }
 
   [[nodiscard]] std::span<const ViewLine> lines() const { return lines_; }
+  /// The smallest number of all lines that continue this one straight on, with no gap, by
+  /// whatever object.
+  [[nodiscard]] int whole_line(int line) const { return whole_lines_[line]; }
   /// The line on which the side of a face from its corner k to the next lies; -1 where
   /// the face goes on in the same plane.
   [[nodiscard]] int line_of_side(int face, int k) const {
@@ -79,12 +82,12 @@ class ViewScene {
  private:
   void add_lines();
   void add_crossings();
-  void find_patches();
+  void find_whole_lines();
 
   const Scene* scene_;
   Silhouettes silhouettes_;
   std::vector<ViewLine> lines_;
-  std::vector<int> side_lines_;
+  std::vector<int> side_lines_, whole_lines_;
   std::vector<int> crossing_starts_, crossing_lines_;  // by face
   std::vector<int> edge_starts_, edge_ids_;            // by object
   std::vector<ExactPoint> constructed_;

@@ -28,6 +28,13 @@ struct LinePiece {
   SeenBeside left, right;  ///< going from `from` to `to`
 };
 
+/// Where, in the picture, something on the line may coincide with something nearer.
+struct Suspect {
+  int point;  ///< of the scene; -1: the position on the line
+  int line;
+  LineCut cut;
+};
+
 /// Finds the pieces of lines.  Keeps scratch: one for a thread.
 class LineViewer {
  public:
@@ -38,6 +45,15 @@ class LineViewer {
   /// Appends the pieces of a line to `pieces`, from its first end to its second.
   void view(int line, std::vector<LinePiece>& pieces);
 
+  /// Some part of the line that nothing nearer hides, at least on one side; it may still
+  /// bound nothing that is seen.
+  [[nodiscard]] std::optional<std::array<LineCut, 2>> part_in_sight(int line);
+
+  /// All accidents of corners and lines that views of the lines asked so far came across,
+  /// and perhaps others: every point where a corner is seen on a nearer or farther line,
+  /// or where two nearer lines cross on a farther one.
+  [[nodiscard]] std::span<const Suspect> suspects() const { return suspects_; }
+
  private:
   // A face as it lies over, or at, the line between two positions.
   struct Cover {
@@ -47,19 +63,28 @@ class LineViewer {
     bool hides;        // it is nearer than the line; else it contains the line
   };
 
+  // The positions on a line at which anything begins or ends, in order, each once; and
+  // between two of them how many faces hide its left and its right.
+  struct Scan {
+    std::vector<LineCut> at;
+    std::vector<std::array<int, 2>> hidden;
+    std::vector<std::vector<const Cover*>> containing;
+  };
+
+  void cover(int line, const LineCuts& cuts);
+  [[nodiscard]] Scan scan_covers(int line, const LineCuts& cuts);
+  void suspect_corner(int line, int corner);
   void find_faces(int line);
   void add_cover(int line, int face);
   [[nodiscard]] std::optional<Cover> own_side(int line, int face) const;
-  [[nodiscard]] std::optional<Cover> overlap(int line, int face,
-                                             const LineCuts& cuts) const;
-  void scan(int line, const LineCuts& cuts, std::vector<LinePiece>& pieces);
+  [[nodiscard]] std::optional<Cover> overlap(int line, int face, const LineCuts& cuts);
   [[nodiscard]] SeenBeside nearest(std::span<const int> faces, int line, bool left) const;
 
   const EyeSpace* eye_;
   std::span<const std::uint8_t> possibly_seen_;
   std::vector<int> faces_;
   std::vector<Cover> covers_;
-  bool hidden_;  // the whole line, by one face
+  std::vector<Suspect> suspects_;
 };
 
 }  // namespace sightline::internal

@@ -6,9 +6,11 @@
 #include "linespace/picture/view_scene.h"
 #include "linespace/view/line_view.h"
 #include "linespace/view/possibly_seen.h"
+#include "linespace/view/view_accidents.h"
 #include "linespace/view/view_graph.h"
 #include "linespace/view/view_map.h"
 #include "linespace/view/view_measures.h"
+#include "linespace/view/view_structure.h"
 #include "linespace/work/stage.h"
 
 namespace sightline {
@@ -73,8 +75,9 @@ PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) con
   std::vector<bool> background;
   for (const MapRegion& r : map.regions) background.push_back(r.patches.empty());
   const ViewMeasures measures = measure(space, graph, map.region_of, background);
-  view.general = std::ranges::none_of(
-      map.vertices, [](const MapVertex& v) { return v.kind == MapVertexKind::Accident; });
+  view.accidents = find_accidents(space, viewer, seen);
+  view.general = view.accidents.empty();
+  if (view.general) view.structure = structure_of(scene, map);
   for (const ViewMeasures::OfFacet& f : measures.facets) {
     SeenFacet seen_facet{f.side / 2, f.side % 2 == 0, f.pieces, f.measure, std::nullopt};
     if (!space.is_direction() && view.general) seen_facet.gradient = f.gradient;

@@ -308,7 +308,7 @@ void GraphBuilder::label_regions() {
     const auto [a, b] = eye_->scene().lines()[graph_.edges[h / 2].line].ends;
     ExactPoint left = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
     if (h % 2 == 1) left = {-left[0], -left[1], -left[2]};
-    graph_.regions[r] = label(first_seen(*eye_, {middle(h / 2), left}, possibly_seen_));
+    graph_.regions[r] = label(first_seen(*eye_, {middle(h / 2), {left}}, possibly_seen_));
   }
   if (graph_.regions.empty()) graph_.regions.emplace_back();
 }

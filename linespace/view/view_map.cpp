@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "linespace/picture/classes.h"
 
@@ -41,7 +42,8 @@ class MapMaker {
   [[nodiscard]] int corner_on(int line, int point) const;
   [[nodiscard]] Point place(int line, int point) const;
   [[nodiscard]] bool meet_at(int line, int other, int point) const;
-  [[nodiscard]] MapVertex vertex(int point, std::span<const int> leaving) const;
+  [[nodiscard]] MapVertex vertex(int point, std::span<const int> leaving,
+                                 std::array<int, 2>& lines) const;
 
   const EyeSpace* eye_;
   const ViewGraph* graph_;
@@ -272,7 +274,8 @@ int MapMaker::corner_on(int line, int point) const {
   return -1;
 }
 
-MapVertex MapMaker::vertex(int point, std::span<const int> leaving) const {
+MapVertex MapMaker::vertex(int point, std::span<const int> leaving,
+                           std::array<int, 2>& lines) const {
   MapVertex v{};
   v.kind = MapVertexKind::Accident;
   v.corner = -1;
@@ -293,6 +296,9 @@ MapVertex MapMaker::vertex(int point, std::span<const int> leaving) const {
   if (meeting.size() == 1) {
     v.corner = corner_on(line(leaving.front()), point);
     v.kind = v.corner >= 0 ? MapVertexKind::Corner : MapVertexKind::Touch;
+    std::set<int> whole;
+    for (const int h : leaving) whole.insert(eye_->scene().whole_line(line(h)));
+    lines = {*whole.begin(), *std::next(whole.begin(), whole.size() > 1 ? 1 : 0)};
   } else if (meeting.size() == 2) {
     // A nearer line that goes straight on, and a farther one that ends behind it.
     for (int i = 0; i < 2; ++i) {
@@ -301,7 +307,8 @@ MapVertex MapMaker::vertex(int point, std::span<const int> leaving) const {
       if (corner_on(line(far.front()), point) >= 0) continue;
       if (!eye_->scene().on_one_line(line(near[0]), line(near[1]))) continue;
       v.kind = MapVertexKind::T;
-      v.near = eye_->scene().lines()[std::min(line(near[0]), line(near[1]))].name;
+      lines = {std::min(line(near[0]), line(near[1])), line(far.front())};
+      v.near = eye_->scene().lines()[lines[0]].name;
       v.far = eye_->scene().lines()[line(far.front())].name;
     }
   }
@@ -316,7 +323,8 @@ void MapMaker::add_vertices() {
     for (const int p : e.ends) {
       if (number[p] >= 0) continue;
       number[p] = static_cast<int>(map_.vertices.size());
-      map_.vertices.push_back(vertex(p, leaving_[p]));
+      auto& lines = map_.lines_of_vertex.emplace_back(std::array{0, 0});
+      map_.vertices.push_back(vertex(p, leaving_[p], lines));
       map_.point_of_vertex.push_back(p);
     }
   }
