@@ -87,7 +87,8 @@ struct MapEdge {
   MapLine line;
   MapEdgeKind kind;
   std::array<int, 2> ends;  ///< vertices
-  /// Regions beside it, going from the first end to the second, as the eye sees it.
+  /// Regions beside it, going from the first end to the second, as the eye sees it; -1
+  /// where an eye on the scene would look into material.
   int left, right;
   /// The piece of the line in space, rounded.
   std::array<Point, 2> segment;

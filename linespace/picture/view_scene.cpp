@@ -13,7 +13,7 @@
 namespace sightline::internal {
 
 ViewScene::ViewScene(const Scene& scene, const Request& request)
-    : scene_(&scene), silhouettes_(scene, EventMode::Solid, request) {
+    : scene_(&scene), silhouettes_(scene, EventMode::Solid, request), solids_(scene) {
   Stage stage(request, "what views share");
   add_lines();
   add_crossings();

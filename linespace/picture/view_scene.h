@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linespace/numbers/rational.h"
+#include "linespace/scene/solid_index.h"
 #include "linespace/silhouettes/silhouettes.h"
 #include "linespace/visibility_map.h"
 
@@ -30,6 +31,7 @@ class ViewScene {
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Silhouettes& silhouettes() const { return silhouettes_; }
+  [[nodiscard]] const SolidIndex& solids() const { return solids_; }
 
   [[nodiscard]] std::span<const ViewLine> lines() const { return lines_; }
   /// The smallest number of all lines that continue this one straight on, with no gap, by
@@ -86,6 +88,7 @@ class ViewScene {
 
   const Scene* scene_;
   Silhouettes silhouettes_;
+  SolidIndex solids_;
   std::vector<ViewLine> lines_;
   std::vector<int> side_lines_, whole_lines_;
   std::vector<int> crossing_starts_, crossing_lines_;  // by face

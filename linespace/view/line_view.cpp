@@ -6,8 +6,9 @@
 
 namespace sightline::internal {
 
-LineViewer::LineViewer(const EyeSpace& eye, std::span<const std::uint8_t> possibly_seen)
-    : eye_(&eye), possibly_seen_(possibly_seen) {}
+LineViewer::LineViewer(const EyeSpace& eye, const EyeStar& star,
+                       std::span<const std::uint8_t> possibly_seen)
+    : eye_(&eye), star_(&star), possibly_seen_(possibly_seen) {}
 
 void LineViewer::cover(int line, const LineCuts& cuts) {
   find_faces(line);
@@ -28,25 +29,41 @@ void LineViewer::view(int line, std::vector<LinePiece>& pieces) {
   const Scan scan = scan_covers(line, cuts);
   const std::size_t first = pieces.size();
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
-    // Where a nearer face ends along the line, its own side is the piece.
-    if (scan.hidden[i][0] > 0 || scan.hidden[i][1] > 0 || scan.containing[i].empty())
-      continue;
-    std::vector<int> left, right;
-    for (const Cover* c : scan.containing[i]) {
-      if (c->left) left.push_back(c->face);
-      if (c->right) right.push_back(c->face);
-    }
-    LinePiece piece{line, scan.at[i], scan.at[i + 1], nearest(left, line, true),
-                    nearest(right, line, false)};
-    if (piece.left == piece.right) continue;
-    if (pieces.size() > first && pieces.back().left == piece.left &&
-        pieces.back().right == piece.right &&
-        cuts.compare(pieces.back().to, piece.from) == 0) {
-      pieces.back().to = piece.to;
+    auto next = piece(line, scan, i);
+    if (!next) continue;
+    if (pieces.size() > first && pieces.back().left == next->left &&
+        pieces.back().right == next->right &&
+        cuts.compare(pieces.back().to, next->from) == 0) {
+      pieces.back().to = next->to;
     } else {
-      pieces.push_back(std::move(piece));
+      pieces.push_back(std::move(*next));
     }
   }
+}
+
+// The piece between two neighbouring positions; nullopt where nothing begins or ends.
+std::optional<LinePiece> LineViewer::piece(int line, const Scan& scan,
+                                           std::size_t i) const {
+  const std::array<bool, 2> blocked =
+      scan.blocked.empty() ? std::array{false, false} : scan.blocked[i];
+  const auto& hidden = scan.hidden[i];
+  if (blocked[0] && blocked[1]) return std::nullopt;
+  const bool bounds_sight = blocked[0] || blocked[1];
+  if (bounds_sight && !star_->bounds(line)) return std::nullopt;
+  // Where a nearer face ends along the line, its own side is the piece.
+  if (!bounds_sight && (hidden[0] > 0 || hidden[1] > 0 || scan.containing[i].empty()))
+    return std::nullopt;
+  std::vector<int> left, right;
+  for (const Cover* c : scan.containing[i]) {
+    if (c->left && !blocked[0] && hidden[0] == 0) left.push_back(c->face);
+    if (c->right && !blocked[1] && hidden[1] == 0) right.push_back(c->face);
+  }
+  LinePiece piece{line, scan.at[i], scan.at[i + 1], nearest(left, line, true),
+                  nearest(right, line, false)};
+  piece.left.blocked = blocked[0];
+  piece.right.blocked = blocked[1];
+  if (piece.left == piece.right) return std::nullopt;
+  return piece;
 }
 
 std::optional<std::array<LineCut, 2>> LineViewer::part_in_sight(int line) {
@@ -196,6 +213,13 @@ LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
     if (c.from.kind != LineCut::Kind::Start) scan.at.push_back(c.from);
     if (c.to.kind != LineCut::Kind::Finish) scan.at.push_back(c.to);
   }
+  // From an eye on a face, sight is blocked up to its plane.
+  const auto [a, b] = eye_->scene().lines()[line].ends;
+  for (const int face : star_->faces()) {
+    const Sign at_a = eye_->scene().plane_side(face, a);
+    if (at_a != Sign::Zero && eye_->scene().plane_side(face, b) == -at_a)
+      scan.at.push_back(cuts.at_plane(face));
+  }
   const auto before = [&](const LineCut& x, const LineCut& y) {
     return cuts.compare(x, y) < 0;
   };
@@ -236,7 +260,22 @@ LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
     for (int side = 0; side < 2; ++side) hidden[side] += begins[i][side];
     scan.hidden.push_back(hidden);
   }
+  if (!star_->faces().empty()) find_blocked(line, cuts, scan);
   return scan;
+}
+
+void LineViewer::find_blocked(int line, const LineCuts& cuts, Scan& scan) const {
+  const ViewScene& scene = eye_->scene();
+  const auto [a, b] = scene.lines()[line].ends;
+  // Rays run against picture vectors.
+  const ExactPoint right = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
+  const ExactPoint left{-right[0], -right[1], -right[2]};
+  for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
+    const Rational middle = (cuts.exact(scan.at[i]) + cuts.exact(scan.at[i + 1])) / 2;
+    const ExactPoint way =
+        exact_difference(along(scene.exact(a), scene.exact(b), middle), eye_->eye());
+    scan.blocked.push_back({star_->blocked(way, left), star_->blocked(way, right)});
+  }
 }
 
 }  // namespace sightline::internal

@@ -10,6 +10,7 @@
 
 #include "linespace/picture/eye_space.h"
 #include "linespace/picture/line_cut.h"
+#include "linespace/view/eye_star.h"
 
 namespace sightline::internal {
 
@@ -18,6 +19,8 @@ struct SeenBeside {
   /// Faces that are seen there and contain the piece: one, or several that coincide.
   /// Empty: what is seen lies behind the piece.
   std::vector<int> faces;
+  /// From an eye on the scene: sight on this side runs into material and sees nothing.
+  bool blocked = false;
   friend bool operator==(const SeenBeside&, const SeenBeside&) = default;
 };
 
@@ -40,7 +43,8 @@ class LineViewer {
  public:
   /// Faces marked 0 in possibly_seen are certainly hidden and are not asked; the span
   /// must outlive this.
-  LineViewer(const EyeSpace& eye, std::span<const std::uint8_t> possibly_seen);
+  LineViewer(const EyeSpace& eye, const EyeStar& star,
+             std::span<const std::uint8_t> possibly_seen);
 
   /// Appends the pieces of a line to `pieces`, from its first end to its second.
   void view(int line, std::vector<LinePiece>& pieces);
@@ -69,10 +73,14 @@ class LineViewer {
     std::vector<LineCut> at;
     std::vector<std::array<int, 2>> hidden;
     std::vector<std::vector<const Cover*>> containing;
+    std::vector<std::array<bool, 2>> blocked;  // empty for an eye off the scene
   };
 
   void cover(int line, const LineCuts& cuts);
   [[nodiscard]] Scan scan_covers(int line, const LineCuts& cuts);
+  void find_blocked(int line, const LineCuts& cuts, Scan& scan) const;
+  [[nodiscard]] std::optional<LinePiece> piece(int line, const Scan& scan,
+                                               std::size_t i) const;
   void suspect_corner(int line, int corner);
   void find_faces(int line);
   void add_cover(int line, int face);
@@ -81,6 +89,7 @@ class LineViewer {
   [[nodiscard]] SeenBeside nearest(std::span<const int> faces, int line, bool left) const;
 
   const EyeSpace* eye_;
+  const EyeStar* star_;
   std::span<const std::uint8_t> possibly_seen_;
   std::vector<int> faces_;
   std::vector<Cover> covers_;

@@ -56,7 +56,8 @@ class MapMaker {
 std::vector<int> MapMaker::patches(int region) const {
   std::vector<int> found;
   for (const int side : graph_->regions[region]) {
-    found.push_back(eye_->scene().patch(side / 2, side % 2 == 0));
+    found.push_back(side == kNoSight ? kNoSight
+                                     : eye_->scene().patch(side / 2, side % 2 == 0));
   }
   std::ranges::sort(found);
   found.erase(std::ranges::unique(found).begin(), found.end());
@@ -77,6 +78,7 @@ void MapMaker::join_regions() {
   }
   map_.region_of.assign(n, -1);
   for (int r = 0; r < static_cast<int>(n); ++r) {
+    if (shown[r] == std::vector{kNoSight}) continue;
     int& number = map_.region_of[classes.root(r)];
     if (number < 0) {
       number = static_cast<int>(map_.regions.size());
@@ -199,6 +201,7 @@ bool MapMaker::share_object(int edge) const {
   const auto& facets = eye_->scene().scene().facets();
   for (const int x : graph_->regions[graph_->left(edge)]) {
     for (const int y : graph_->regions[graph_->right(edge)]) {
+      if (x == kNoSight || y == kNoSight) continue;
       if (facets[x / 2].object == facets[y / 2].object) return true;
     }
   }
@@ -348,7 +351,8 @@ void MapMaker::add_boundaries() {
       x = graph_->next[x];
       while (seam_[x / 2] != 0) x = graph_->next[x ^ 1];
     }
-    map_.regions[map_.region_of[graph_->region[h]]].boundary.push_back(std::move(walk));
+    const int region = map_.region_of[graph_->region[h]];
+    if (region >= 0) map_.regions[region].boundary.push_back(std::move(walk));
   }
 }
 

@@ -13,7 +13,8 @@ struct ViewMap {
   std::vector<MapEdge> edges;
   std::vector<MapRegion> regions;  ///< without their measures
   int components = 0, background_pieces = 0, seams = 0;
-  /// Of regions of the graph: the map's region they are a part of.
+  /// Of regions of the graph: the map's region they are a part of; -1 where sight runs
+  /// into material.
   std::vector<int> region_of;
   /// Of vertices of the map: their point in the graph, and lines that end or cross there:
   /// of a T the near one and the far one; else of the smallest numbers.
