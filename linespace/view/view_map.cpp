@@ -40,6 +40,7 @@ class MapMaker {
   [[nodiscard]] bool share_object(int edge) const;
   [[nodiscard]] ExactPoint exact_place(int line, int point) const;
   [[nodiscard]] int corner_on(int line, int point) const;
+  [[nodiscard]] bool ends_at(int line, int point) const;
   [[nodiscard]] Point place(int line, int point) const;
   [[nodiscard]] bool meet_at(int line, int other, int point) const;
   [[nodiscard]] MapVertex vertex(int point, std::span<const int> leaving,
@@ -266,6 +267,13 @@ bool MapMaker::meet_at(int line, int other, int point) const {
   return orient3d(s.point(a), s.point(b), s.point(c), s.point(d)) == Sign::Zero;
 }
 
+bool MapMaker::ends_at(int line, int point) const {
+  return corner_on(line, point) >= 0 ||
+         std::ranges::any_of(eye_->scene().lines()[line].ends, [&](int end) {
+           return same_point(PicturePoint(*eye_, end), graph_->points[point]);
+         });
+}
+
 // The corner of the scene that lies on the line where it passes this point; -1 if none.
 int MapMaker::corner_on(int line, int point) const {
   const ViewScene& scene = eye_->scene();
@@ -307,7 +315,7 @@ MapVertex MapMaker::vertex(int point, std::span<const int> leaving,
     for (int i = 0; i < 2; ++i) {
       const auto &near = meeting[i], &far = meeting[1 - i];
       if (near.size() != 2 || far.size() != 1) continue;
-      if (corner_on(line(far.front()), point) >= 0) continue;
+      if (ends_at(line(far.front()), point)) continue;
       if (!eye_->scene().on_one_line(line(near[0]), line(near[1]))) continue;
       v.kind = MapVertexKind::T;
       lines = {std::min(line(near[0]), line(near[1])), line(far.front())};
