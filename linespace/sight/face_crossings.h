@@ -30,6 +30,7 @@ class FaceCrossings {
     return crossings_[number];
   }
   [[nodiscard]] bool empty() const { return crossings_.empty(); }
+  [[nodiscard]] std::size_t count() const { return crossings_.size(); }
   /// Over the segments' boxes; items are numbers.
   [[nodiscard]] const Bvh& tree() const { return tree_; }
   /// In either order.

@@ -1,0 +1,59 @@
+// Positions on a line of the scene at which its view can change, and their exact order.
+
+#pragma once
+
+#include <compare>
+#include <cstdint>
+
+#include "linespace/picture/eye_space.h"
+
+namespace sightline::internal {
+
+/// A position on a line from its first end (0) to its second (1), as a ratio of lengths
+/// in space.
+struct LineCut {
+  enum class Kind : std::uint8_t {
+    Start,
+    Side,   ///< where the line is seen to cross the line through points p and q
+    Plane,  ///< where the line passes the plane of face p
+    Finish
+  };
+  Kind kind;
+  int p = -1, q = -1;
+  /// The position, within the error.
+  long double at = 0, error = 0;
+  /// Of a Side or Plane: two numbers above 0 with at = w0 / (w0 + w1), each within 2^-45
+  /// of itself.
+  long double w0 = 0, w1 = 0;
+};
+
+[[nodiscard]] inline LineCut start_cut() { return {.kind = LineCut::Kind::Start}; }
+[[nodiscard]] inline LineCut finish_cut() {
+  return {.kind = LineCut::Kind::Finish, .at = 1};
+}
+
+/// All that is asked about positions on one line.
+class LineCuts {
+ public:
+  LineCuts(const EyeSpace& eye, int line)
+      : eye_(&eye), ends_(eye.scene().lines()[line].ends) {}
+
+  /// Requires that the ends are seen on different sides of the line pq, neither on it.
+  [[nodiscard]] LineCut at_side(int p, int q) const;
+  /// Requires that the ends lie on different sides of the face's plane, neither in it.
+  [[nodiscard]] LineCut at_plane(int face) const;
+
+  [[nodiscard]] std::strong_ordering compare(const LineCut& a, const LineCut& b) const;
+
+  /// The position as a fraction, exactly.
+  [[nodiscard]] Rational exact(const LineCut& cut) const;
+
+ private:
+  [[nodiscard]] std::array<Rational, 2> exact_weights(const LineCut& cut) const;
+  [[nodiscard]] LineCut weighted(LineCut cut, LongValue at0, LongValue at1) const;
+
+  const EyeSpace* eye_;
+  std::array<int, 2> ends_;
+};
+
+}  // namespace sightline::internal

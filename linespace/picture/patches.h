@@ -1,0 +1,19 @@
+// Patches: facets, of one object or several, that lie in one plane, face alike, and hang
+// together.
+
+#pragma once
+
+#include <vector>
+
+#include "linespace/silhouettes/silhouettes.h"
+
+namespace sightline::internal {
+
+/// For facet f, the patch number of its front at 2 f and of its back at 2 f + 1.  Two
+/// facets are of one patch when faces of theirs lie in one plane and touch along a
+/// segment or overlap, and so on from facet to facet.  A closed object's facet faces to
+/// its front; a sheet's faces both ways.  Cost: n log n for n faces, few of which touch
+/// each other.
+[[nodiscard]] std::vector<int> find_patches(const Silhouettes& silhouettes);
+
+}  // namespace sightline::internal

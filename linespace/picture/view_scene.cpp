@@ -1,0 +1,115 @@
+#include "linespace/picture/view_scene.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "linespace/picture/patches.h"
+#include "linespace/sight/face_crossings.h"
+#include "linespace/work/stage.h"
+
+namespace sightline::internal {
+
+ViewScene::ViewScene(const Scene& scene, const Request& request)
+    : scene_(&scene), silhouettes_(scene, EventMode::Solid, request) {
+  Stage stage(request, "what views share");
+  add_lines();
+  add_crossings();
+  patches_ = sightline::internal::find_patches(silhouettes_);
+}
+
+void ViewScene::add_lines() {
+  const Scene& scene = *scene_;
+  for (int e = 0; e < static_cast<int>(scene.edges().size()); ++e) {
+    lines_.push_back({scene.edges()[e].points, {e, {-1, -1}}});
+  }
+  // Flat sides at which a facet is bent, by their points.
+  std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> flat_sides;
+  for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
+    const auto corners = scene.face_points(f);
+    const int n = static_cast<int>(corners.size());
+    for (int k = 0; k < n; ++k) {
+      side_lines_.push_back(scene.edge_of_side(f, k));
+      if (side_lines_.back() >= 0 || scene.facets()[scene.faces()[f].facet].planar)
+        continue;
+      flat_sides[std::minmax(corners[k], corners[(k + 1) % n])].emplace_back(f, k);
+    }
+  }
+  for (const auto& [points, sides] : flat_sides) {
+    const int facet = scene.faces()[sides.front().first].facet;
+    for (const auto& [f, k] : sides) {
+      side_lines_[scene.faces()[f].first_corner + k] = static_cast<int>(lines_.size());
+    }
+    lines_.push_back({{points.first, points.second}, {-1, {facet, facet}}});
+  }
+}
+
+void ViewScene::add_crossings() {
+  const FaceCrossings crossings(silhouettes_);
+  const std::size_t n = scene_->faces().size();
+  std::vector<std::vector<int>> of_face(crossings.empty() ? 0 : n);
+  std::map<ExactPoint, int> numbers;
+  const auto number = [&](const ExactPoint& p) {
+    const auto [it, is_new] = numbers.emplace(p, point_count());
+    if (is_new) constructed_.push_back(p);
+    return it->second;
+  };
+  if (!crossings.empty()) {
+    for (int p = 0; p < static_cast<int>(scene_->points().size()); ++p) {
+      numbers.emplace(exact_point(scene_->point(p)), p);
+    }
+  }
+  crossing_starts_.assign(n + 1, 0);
+  for (std::uint32_t i = 0; i < crossings.count(); ++i) {
+    const FaceCrossing& c = crossings.at(i);
+    const auto facets =
+        std::minmax(scene_->faces()[c.f].facet, scene_->faces()[c.h].facet);
+    const int line = static_cast<int>(lines_.size());
+    std::array<int, 2> ends{number(c.segment[0]), number(c.segment[1])};
+    lines_.push_back({ends, {-1, {facets.first, facets.second}}, {c.f, c.h}});
+    of_face[c.f].push_back(line);
+    of_face[c.h].push_back(line);
+  }
+  for (std::size_t f = 0; f < n; ++f) {
+    if (!of_face.empty()) {
+      crossing_lines_.insert(crossing_lines_.end(), of_face[f].begin(), of_face[f].end());
+    }
+    crossing_starts_[f + 1] = static_cast<int>(crossing_lines_.size());
+  }
+}
+
+std::span<const int> ViewScene::crossings_of(int face) const {
+  return std::span(crossing_lines_)
+      .subspan(crossing_starts_[face],
+               crossing_starts_[face + 1] - crossing_starts_[face]);
+}
+
+Rational ViewScene::exact_plane_value(int face, const ExactPoint& p) const {
+  const auto t = plane_points(*scene_, face);
+  return exact_orient(exact_point(scene_->point(t[0])), exact_point(scene_->point(t[1])),
+                      exact_point(scene_->point(t[2])), p);
+}
+
+Sign ViewScene::plane_side(int face, int point) const {
+  if (!is_constructed(point)) return silhouettes_.face_plane(face)(scene_->point(point));
+  return static_cast<Sign>(exact_plane_value(face, exact(point)).sign());
+}
+
+bool ViewScene::on_one_line(int line, int other) const {
+  if (line == other) return true;
+  const auto [a, b] = lines_[line].ends;
+  for (const int p : lines_[other].ends) {
+    if (p == a || p == b) continue;
+    if (is_constructed(a) || is_constructed(b) || is_constructed(p)) {
+      const ExactPoint at = exact(a);
+      const ExactPoint normal =
+          exact_cross(exact_difference(exact(b), at), exact_difference(exact(p), at));
+      if (normal != ExactPoint{}) return false;
+    } else if (!collinear(scene_->point(a), scene_->point(b), scene_->point(p))) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace sightline::internal

@@ -1,0 +1,95 @@
+#include "linespace/point_view.h"
+
+#include <algorithm>
+#include <string>
+
+#include "linespace/picture/view_scene.h"
+#include "linespace/view/line_view.h"
+#include "linespace/view/possibly_seen.h"
+#include "linespace/view/view_graph.h"
+#include "linespace/view/view_map.h"
+#include "linespace/view/view_measures.h"
+#include "linespace/work/stage.h"
+
+namespace sightline {
+
+using namespace internal;
+
+struct PointViewIndex::Impl {
+  Impl(const Scene& s, const Request& request) : scene(s, request) {}
+  ViewScene scene;
+};
+
+PointViewIndex::PointViewIndex(const Scene& scene, const Request& request)
+    : impl_(std::make_unique<Impl>(scene, request)) {}
+PointViewIndex::~PointViewIndex() = default;
+PointViewIndex::PointViewIndex(PointViewIndex&&) noexcept = default;
+
+int PointViewIndex::patch_of(int facet, bool front) const {
+  return impl_->scene.patch(facet, front);
+}
+
+namespace {
+
+// Lines beside which a face that may be seen ends, or is cut by another, each once.
+std::vector<int> lines_to_ask(const ViewScene& scene,
+                              std::span<const std::uint8_t> possibly_seen) {
+  std::vector<int> lines;
+  for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
+    if (possibly_seen[f] == 0) continue;
+    for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
+      if (const int line = scene.line_of_side(f, k); line >= 0) lines.push_back(line);
+    }
+    for (const int line : scene.crossings_of(f)) lines.push_back(line);
+  }
+  std::ranges::sort(lines);
+  lines.erase(std::ranges::unique(lines).begin(), lines.end());
+  return lines;
+}
+
+}  // namespace
+
+PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) const {
+  const PrecisionScope precision(request.precision);
+  Stage stage(request, "view");
+  const ViewScene& scene = impl_->scene;
+  const EyeSpace space(scene, eye);
+
+  const std::vector<std::uint8_t> seen = possibly_seen(space);
+  std::vector<LinePiece> pieces;
+  LineViewer viewer(space, seen);
+  const std::vector<int> lines = lines_to_ask(scene, seen);
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    stage.at(i, lines.size());
+    viewer.view(lines[i], pieces);
+  }
+  const ViewGraph graph = join_pieces(space, pieces, seen);
+  stage.check(0.8);
+  ViewMap map = make_map(space, graph);
+
+  PointView view;
+  view.eye = eye;
+  view.place = EyePlace::Free;
+  std::vector<bool> background;
+  for (const MapRegion& r : map.regions) background.push_back(r.patches.empty());
+  const ViewMeasures measures = measure(space, graph, map.region_of, background);
+  view.general = std::ranges::none_of(
+      map.vertices, [](const MapVertex& v) { return v.kind == MapVertexKind::Accident; });
+  for (const ViewMeasures::OfFacet& f : measures.facets) {
+    SeenFacet seen_facet{f.side / 2, f.side % 2 == 0, f.pieces, f.measure, std::nullopt};
+    if (!space.is_direction() && view.general) seen_facet.gradient = f.gradient;
+    view.facets.push_back(seen_facet);
+  }
+  for (std::size_t r = 0; r < map.regions.size(); ++r) {
+    map.regions[r].measure = measures.regions[r];
+  }
+  view.vertices = std::move(map.vertices);
+  view.edges = std::move(map.edges);
+  view.regions = std::move(map.regions);
+  view.components = map.components;
+  view.background_pieces = map.background_pieces;
+  view.seams = map.seams;
+  return view;
+}
+
+}  // namespace sightline

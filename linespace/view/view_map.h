@@ -1,0 +1,24 @@
+// The map of a view: the graph of visible pieces without its seams, straight pieces
+// joined, vertices and edges named by what they are in the scene.
+
+#pragma once
+
+#include "linespace/view/view_graph.h"
+
+namespace sightline::internal {
+
+/// The map's parts as PointView tells them; in addition what stands behind them.
+struct ViewMap {
+  std::vector<MapVertex> vertices;
+  std::vector<MapEdge> edges;
+  std::vector<MapRegion> regions;  ///< without their measures
+  int components = 0, background_pieces = 0, seams = 0;
+  /// Of regions of the graph: the map's region they are a part of.
+  std::vector<int> region_of;
+  /// Of vertices and edges of the map: their point, and their first line.
+  std::vector<int> point_of_vertex, line_of_edge;
+};
+
+[[nodiscard]] ViewMap make_map(const EyeSpace& eye, const ViewGraph& graph);
+
+}  // namespace sightline::internal

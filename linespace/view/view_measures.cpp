@@ -1,0 +1,174 @@
+#include "linespace/view/view_measures.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "linespace/picture/classes.h"
+
+namespace sightline::internal {
+namespace {
+
+using LongEigen = Eigen::Matrix<long double, 3, 1>;
+
+LongEigen eigen(const LongVector& v) { return {v[0], v[1], v[2]}; }
+
+// A sum over edges around a point of reference: a point of the first edge, if none is
+// given.
+struct Sum {
+  std::optional<LongEigen> reference;
+  long double value = 0;
+  long double size = 0;  // of what was added, absolutely
+  Eigen::Matrix<long double, 3, 1> gradient = LongEigen::Zero();
+  std::vector<int> half_edges;  // of the boundary
+};
+
+class Measurer {
+ public:
+  Measurer(const EyeSpace& eye, const ViewGraph& graph) : eye_(&eye), graph_(&graph) {
+    for (const PicturePoint& p : graph.points) points_.push_back(accurate(p));
+  }
+
+  void add(Sum& sum, int half_edge) const {
+    const int from = graph_->origin(half_edge), to = graph_->origin(half_edge ^ 1);
+    const LongEigen &u = points_[from], &v = points_[to];
+    if (!sum.reference) sum.reference = u;
+    sum.half_edges.push_back(half_edge);
+    const LongEigen& r = *sum.reference;
+    const long double det = r.dot(LongEigen(u - r).cross(LongEigen(v - r)));
+    // Twice the area of a triangle; or its solid angle (van Oosterom and Strackee, 1983).
+    const long double part =
+        eye_->is_direction() ? det / 2
+                             : 2 * std::atan2(det, 1 + r.dot(u) + u.dot(v) + v.dot(r));
+    sum.value += part;
+    sum.size += std::abs(part);
+  }
+
+  // Of the solid angle on the left of a half-edge, with the eye.  The arc has the normal
+  // N in the picture of true directions u = (P - E) / |P - E|.  A step s of the eye moves
+  // the direction of a fixed point at distance r by -s / r across the arc; so the area
+  // changes by the integral of -(s . N) / r over the arc, where 1 / r is linear in u.
+  [[nodiscard]] LongEigen gradient(int half_edge) const {
+    const auto [a, b] = eye_->scene().lines()[graph_->edges[half_edge / 2].line].ends;
+    const LongEigen p = -eigen(eye_->vector(a)), q = -eigen(eye_->vector(b));
+    const LongEigen from = -points_[graph_->origin(half_edge)];
+    const LongEigen to = -points_[graph_->origin(half_edge ^ 1)];
+    LongEigen normal = p.cross(q).normalized();
+    if (half_edge % 2 == 1) normal = -normal;
+    // The point of the line nearest to the eye.
+    const LongEigen along = q - p;
+    const LongEigen foot = p - along * (p.dot(along) / along.squaredNorm());
+    const LongEigen swept = LongEigen(to - from).cross(normal);
+    return -normal * (foot.dot(swept) / foot.squaredNorm());
+  }
+
+  // Areas of a direction's picture: where much cancels, in rational numbers.
+  [[nodiscard]] double value(const Sum& sum) const {
+    if (!eye_->is_direction()) return static_cast<double>(sum.value);
+    long double area = sum.value;
+    if (std::abs(area) < 0x1p-10L * sum.size) area = exact_area(sum);
+    return static_cast<double>(area * eye_->area_factor());
+  }
+
+ private:
+  // Vectors to all digits of a long double.
+  [[nodiscard]] LongEigen accurate(const PicturePoint& p) const {
+    if (p.error() <= 0x1p-58L) return eigen(p.vector());
+    const ExactPoint& v = p.exact();
+    const LongEigen w(long_double(v[0]), long_double(v[1]), long_double(v[2]));
+    return eye_->is_direction() ? LongEigen(w / w[2]) : LongEigen(w / w.norm());
+  }
+
+  [[nodiscard]] long double exact_area(const Sum& sum) const {
+    Rational twice;
+    for (const int h : sum.half_edges) {
+      const ExactPoint& u = graph_->points[graph_->origin(h)].exact();
+      const ExactPoint& v = graph_->points[graph_->origin(h ^ 1)].exact();
+      twice += (u[0] * v[1] - u[1] * v[0]) / (u[2] * v[2]);
+    }
+    return long_double(twice) / 2;
+  }
+
+  const EyeSpace* eye_;
+  const ViewGraph* graph_;
+  std::vector<LongEigen> points_;
+};
+
+// Connected parts of what is seen of each facet: regions that share an edge beside which
+// the facet goes on.
+std::map<int, int> count_pieces(const ViewGraph& graph) {
+  std::vector<std::pair<int, int>> parts;  // facet side, region
+  for (int r = 0; r < static_cast<int>(graph.regions.size()); ++r) {
+    for (const int side : graph.regions[r]) parts.emplace_back(side, r);
+  }
+  std::ranges::sort(parts);
+  const auto number = [&](int side, int region) {
+    return static_cast<int>(std::ranges::lower_bound(parts, std::pair(side, region)) -
+                            parts.begin());
+  };
+  Classes classes(parts.size());
+  std::map<int, int> pieces;
+  for (const auto& [side, region] : parts) ++pieces[side];
+  for (int e = 0; e < static_cast<int>(graph.edges.size()); ++e) {
+    const int left = graph.left(e), right = graph.right(e);
+    if (left == right) continue;
+    for (const int side : graph.regions[left]) {
+      if (!std::ranges::binary_search(graph.regions[right], side)) continue;
+      if (classes.join(number(side, left), number(side, right))) --pieces[side];
+    }
+  }
+  return pieces;
+}
+
+}  // namespace
+
+ViewMeasures measure(const EyeSpace& eye, const ViewGraph& graph,
+                     const std::vector<int>& region_of,
+                     const std::vector<bool>& background) {
+  const Measurer measurer(eye, graph);
+  std::map<int, Sum> facets;
+  std::vector<Sum> regions(background.size());
+  // The background may reach round the eye: no point of it will do for a reference.
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    if (background[r]) regions[r].reference = LongEigen(0.36L, -0.48L, 0.8L);
+  }
+  for (int h = 0; h < static_cast<int>(graph.region.size()); ++h) {
+    const int here = graph.region[h], there = graph.region[h ^ 1];
+    if (region_of[here] != region_of[there]) measurer.add(regions[region_of[here]], h);
+    for (const int side : graph.regions[here]) {
+      if (std::ranges::binary_search(graph.regions[there], side)) continue;
+      Sum& sum = facets[side];
+      measurer.add(sum, h);
+      if (!eye.is_direction()) sum.gradient += measurer.gradient(h);
+    }
+  }
+  ViewMeasures measures;
+  const auto pieces = count_pieces(graph);
+  for (const auto& [side, sum] : facets) {
+    measures.facets.push_back(
+        {side, pieces.at(side), measurer.value(sum), sum.gradient.cast<double>()});
+  }
+  double of_facets = 0;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    measures.regions.emplace_back(std::nullopt);
+    if (background[r]) continue;
+    measures.regions[r] = measurer.value(regions[r]);
+    of_facets += *measures.regions[r];
+  }
+  if (eye.is_direction()) return measures;
+  // Sums tell solid angles up to whole spheres.
+  constexpr double kSphere = 4 * std::numbers::pi;
+  const bool only_one = std::ranges::count(background, true) == 1;
+  for (std::size_t r = 0; r < regions.size(); ++r) {
+    if (!background[r]) continue;
+    const double value = measurer.value(regions[r]);
+    measures.regions[r] = only_one    ? kSphere - of_facets
+                          : value < 0 ? value + kSphere
+                                      : value;
+  }
+  return measures;
+}
+
+}  // namespace sightline::internal
