@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "linespace/point_view.h"
 #include "linespace/polygon_visibility.h"
 #include "linespace/segment_transversals.h"
+#include "linespace/visibility_map.h"
 #include "viewers/json_input.h"
 
 namespace sightline::viewers {

@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <map>
 
-#include "linespace/point_view.h"
+#include "linespace/visibility_map.h"
 
 namespace sightline::testing {
 
 /// Where the eye sees a point of space, as MapVertex::at tells it.
 inline Point seen_at(const Viewpoint& eye, const Point& p) {
   const Point& e = eye.at.nearest;
-  if (eye.kind == Viewpoint::Kind::Point) return (p - e).normalized();
+  if (eye.kind == Viewpoint::Kind::Eye) return (p - e).normalized();
   return p - p.dot(e) / e.squaredNorm() * e;
 }
 
@@ -33,7 +33,7 @@ inline bool is_front(const Scene& scene, int face, const Viewpoint& eye) {
   const Point& a = scene.point(corners[0]);
   const Point normal = (scene.point(corners[1]) - a).cross(scene.point(corners[2]) - a);
   const Point& e = eye.at.nearest;
-  return normal.dot(eye.kind == Viewpoint::Kind::Point ? Point(e - a) : e) > 0;
+  return normal.dot(eye.kind == Viewpoint::Kind::Eye ? Point(e - a) : e) > 0;
 }
 
 /// The number of the corner's vertex, which is made if need be.
@@ -99,7 +99,7 @@ inline PointView convex_view(const Scene& scene, const Viewpoint& eye) {
   view.components = view.background_pieces = 1;
   view.general = true;
   view.structure = "one convex solid";
-  view.regions.push_back({-1, {}, std::nullopt, {}});
+  view.regions.push_back({{}, {}, std::nullopt, {}});
   for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
     if (!in::is_front(scene, f, eye)) continue;
     const int facet = scene.faces()[f].facet;
@@ -108,7 +108,7 @@ inline PointView convex_view(const Scene& scene, const Viewpoint& eye) {
     for (int side = 0; side < scene.faces()[f].corner_count; ++side) {
       walk.push_back(in::half_edge(view, scene, f, side, region));
     }
-    view.regions.push_back({facet, {facet}, 1.0, {walk}});
+    view.regions.push_back({{facet}, {facet}, 1.0, {walk}});
     view.facets.push_back({facet, true, 1, 1.0, {}});
   }
   view.regions[0].boundary = {in::outline(view)};

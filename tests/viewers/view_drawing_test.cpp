@@ -81,7 +81,7 @@ PointView plan_with_hole() {
     return walk;
   };
   view.regions[1].boundary.push_back(moved(inner.regions[0].boundary[0]));
-  view.regions.push_back({5, {5}, 2.0, {moved(inner.regions[1].boundary[0])}});
+  view.regions.push_back({{5}, {5}, 2.0, {moved(inner.regions[1].boundary[0])}});
   return view;
 }
 
@@ -107,7 +107,7 @@ TEST(PicturePlane, APlanHasYUp) {
 
 TEST(PicturePlane, AnEyeLooksAtTheMiddleOfWhatItSees) {
   const Scene scene = cube();
-  const PointView view = convex_view(scene, plain_viewpoint(Kind::Point, {6, 5, 4}));
+  const PointView view = convex_view(scene, plain_viewpoint(Kind::Eye, {6, 5, 4}));
   const PicturePlane plane(view, scene.bounds());
   const Point to_middle = (Point(0.5, 0.5, 0.5) - Point(6, 5, 4)).normalized();
   EXPECT_GT(plane.axes()[2].dot(to_middle), 0.99);
@@ -123,7 +123,7 @@ TEST(PicturePlane, AnEyeLooksAtTheMiddleOfWhatItSees) {
 
 TEST(PicturePlane, AnEyeAmidWhatItSeesLooksAlongTheHorizontal) {
   PointView view{};
-  view.eye = plain_viewpoint(Kind::Point, {1, 1, 1});
+  view.eye = plain_viewpoint(Kind::Eye, {1, 1, 1});
   for (const Point& at : {Point(1, 0, 0), Point(-1, 0, 0), Point(0, 1, 0),
                           Point(0, -1, 0), Point(0, 0, 1), Point(0, 0, -1)}) {
     view.vertices.push_back({MapVertexKind::Corner, 0, {}, {}, at});
@@ -135,7 +135,7 @@ TEST(PicturePlane, AnEyeAmidWhatItSeesLooksAlongTheHorizontal) {
 
 TEST(PicturePlane, WishesHold) {
   const Scene scene = cube();
-  const PointView view = convex_view(scene, plain_viewpoint(Kind::Point, {6, 5, 4}));
+  const PointView view = convex_view(scene, plain_viewpoint(Kind::Eye, {6, 5, 4}));
   PictureWish wish;
   wish.towards = Point(6, 9, 4);
   wish.field_of_view = M_PI / 3;
@@ -154,7 +154,7 @@ TEST(PicturePlane, WishesHold) {
 /// An eye in the origin that looks along x through the window [-1, 1]^2.
 PicturePlane ahead() {
   PointView view{};
-  view.eye = plain_viewpoint(Kind::Point, {0, 0, 0});
+  view.eye = plain_viewpoint(Kind::Eye, {0, 0, 0});
   PictureWish wish;
   wish.towards = Point(1, 0, 0);
   return PicturePlane(view, {Point(0, 0, 0), Point(1, 1, 1)}, wish);
@@ -231,7 +231,7 @@ TEST(ViewDrawing, WhatIsOutsideOfTheWindowIsLeftOut) {
   const PointView view = plan_with_hole();
   const Scene scene = box({0, 0, 0}, {4, 4, 1});
   PictureWish wish;
-  wish.window = PlaneWindow{{-1, -1}, {2, 1.5}};
+  wish.window = PlaneWindow{{-0.5, -1}, {2, 1.5}};
   const ViewDrawing drawing = view_drawing(scene, view, wish);
   EXPECT_EQ(drawing.edges.size(), 4U);  // two of the slab, two of the box
   EXPECT_EQ(drawing.vertices.size(), 2U);
@@ -243,7 +243,7 @@ TEST(ViewDrawing, WhatIsOutsideOfTheWindowIsLeftOut) {
 
 TEST(ViewSvg, IsWellFormedAndHoldsEachLineOnce) {
   const Scene scene = box({0, 0, 0}, {1, 1, 1}, "a<b>&\"c\xFC");
-  const PointView view = convex_view(scene, plain_viewpoint(Kind::Point, {6, 5, 4}));
+  const PointView view = convex_view(scene, plain_viewpoint(Kind::Eye, {6, 5, 4}));
   const std::string svg = view_svg(scene, view, view_drawing(scene, view));
   EXPECT_EQ(occurrences(svg, "<path class=\"patch\""), 3U);
   EXPECT_EQ(occurrences(svg, "<line class=\"silhouette\""), 6U);
@@ -333,7 +333,7 @@ TEST(ViewAnswer, HasTheKeysOfTheContract) {
 
 TEST(ViewAnswer, TellsTheOtherKinds) {
   const Scene scene = cube();
-  PointView view = convex_view(scene, plain_viewpoint(Kind::Point, {6, 5, 4}));
+  PointView view = convex_view(scene, plain_viewpoint(Kind::Eye, {6, 5, 4}));
   view.place = EyePlace::Edge;
   view.place_ids = {3, 4};
   view.general = false;
@@ -342,6 +342,7 @@ TEST(ViewAnswer, TellsTheOtherKinds) {
                             {{GeneratorKind::Vertex, 2}, {GeneratorKind::Edge, 5}}});
   view.facets[1].gradient = Point(1, -2, 0.5);
   view.facets[2].front = false;
+  view.regions[1].patches = {7, 9};
   view.vertices.push_back(
       {MapVertexKind::T, -1, {4, {-1, -1}}, {-1, {0, 2}}, Point(1, 0, 0)});
   view.vertices.push_back({MapVertexKind::Accident, -1, {}, {}, Point(0, 1, 0)});
@@ -357,13 +358,15 @@ TEST(ViewAnswer, TellsTheOtherKinds) {
   EXPECT_EQ(j["facets"][0]["solid_angle"], 1.0);
   EXPECT_EQ(j["t_vertices"], 1);
   EXPECT_EQ(j["accident_vertices"], 1);
+  EXPECT_EQ(j["map"]["regions"][1]["patch"].dump(), "[7,9]");
+  EXPECT_EQ(j["map"]["regions"][2]["patch"], view.regions[2].patches[0]);
   EXPECT_EQ(j["map"]["vertices"][7]["near"], 4);
   EXPECT_EQ(j["map"]["vertices"][7]["far"].dump(), R"({"facets":[0,2]})");
 }
 
 TEST(ViewCsv, ARowForEachFacet) {
   const Scene scene = box({0, 0, 0}, {1, 1, 1}, "a \"b\", c");
-  PointView view = convex_view(scene, plain_viewpoint(Kind::Point, {6, 5, 4}));
+  PointView view = convex_view(scene, plain_viewpoint(Kind::Eye, {6, 5, 4}));
   view.facets[0].gradient = Point(1, -2, 0.5);
   const std::string csv = view_csv(scene, 7, view);
   EXPECT_EQ(occurrences(csv, "\n"), 3U);
@@ -387,7 +390,7 @@ class ViewVtk : public ::testing::Test {
 
 TEST_F(ViewVtk, RegionsLieOnTheirFacets) {
   const Scene scene = cube();
-  for (const Kind kind : {Kind::Point, Kind::Direction}) {
+  for (const Kind kind : {Kind::Eye, Kind::Direction}) {
     const PointView view = convex_view(scene, plain_viewpoint(kind, {6, 5, 4}));
     const ViewDrawing drawing = view_drawing(scene, view);
     const std::vector<std::string> files =

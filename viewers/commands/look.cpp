@@ -55,7 +55,7 @@ std::vector<ViewQuestion> questions_of(Session& session, const LookOptions& opti
     const std::string option_name = option->get_name();
     if (option_name == "--from") {
       questions.push_back(
-          view_question(Viewpoint::Kind::Point, option_name, options.from.at(from++)));
+          view_question(Viewpoint::Kind::Eye, option_name, options.from.at(from++)));
     } else if (option_name == "--direction") {
       questions.push_back(view_question(Viewpoint::Kind::Direction, option_name,
                                         options.direction.at(direction++)));
@@ -102,7 +102,7 @@ void check_pictures(const LookOptions& options,
                                  questions.size(), kMostDrawn));
   }
   const bool eye = std::ranges::any_of(questions, [](const ViewQuestion& q) {
-    return q.eye.kind == Viewpoint::Kind::Point;
+    return q.eye.kind == Viewpoint::Kind::Eye;
   });
   if (!eye && (options.fov > 0 || !options.towards.empty())) {
     throw UsageError(fmt::format("{}: is for eyes, and all views are directions",
@@ -291,12 +291,12 @@ void write_pictures(Session& session, const LookOptions& options, const Scene& s
     const PointView& view = *all.views[i].view;
     drawn.push_back({&view, &drawings[i]});
     if (!files.svg.empty()) {
-      session.write(files.svg[i]->target().string(), [&](const Request&) {
+      session.write("--svg", [&](const Request&) {
         write_bytes(*files.svg[i], view_svg(scene, view, drawings[i]));
       });
     }
     if (!files.png.empty()) {
-      session.write(files.png[i]->target().string(), [&](const Request& request) {
+      session.write("--png", [&](const Request& request) {
         write_bytes(*files.png[i],
                     encode_png(view_image(drawings[i], view, options.pixels, request)));
       });
@@ -401,7 +401,7 @@ void add_window_options(CLI::App& command, LookOptions& options) {
       ->excludes(window);
   add_numbers(command, "--up", options.up, 3,
               "the direction that points up in the picture (default 0,0,1, but 0,1,0 "
-              "where sight runs along z)")
+              "where sight runs along z; scenes of modellers often want 0,1,0)")
       ->type_name("x,y,z");
   add_numbers(command, "--towards", options.towards, 3,
               "of an eye: the point in the picture's middle, in scene units (default: "

@@ -71,9 +71,9 @@ std::string patch_element(const Scene& scene, const MapRegion& region,
       "<path class=\"patch\" fill=\"{}\" fill-rule=\"evenodd\" data-region=\"{}\" "
       "data-patch=\"{}\" data-facets=\"{}\" data-object=\"{}\" d=\"{}\"><title>region "
       "{}: patch {} of {}, facets {}</title></path>\n",
-      hex(drawn.colour), drawn.region, region.patch, fmt::join(region.facets, " "), name,
-      path_data(drawn, sheet), drawn.region, region.patch, name,
-      fmt::join(region.facets, " "));
+      hex(drawn.colour), drawn.region, fmt::join(region.patches, " "),
+      fmt::join(region.facets, " "), name, path_data(drawn, sheet), drawn.region,
+      fmt::join(region.patches, " "), name, fmt::join(region.facets, " "));
 }
 
 std::string edge_element(const MapEdge& edge, const DrawnEdge& drawn,

@@ -36,7 +36,7 @@ class FacetPlane {
   /// Where the eye sees the plane in this direction, or at this plane point.  What
   /// rounding moves out of the scene's box is moved back to its border.
   [[nodiscard]] PlanePoint seen(const Point& at) const {
-    const bool point = view_.eye.kind == Viewpoint::Kind::Point;
+    const bool point = view_.eye.kind == Viewpoint::Kind::Eye;
     const Point from = point ? view_.eye.at.nearest : at;
     const Point along = point ? at : view_.eye.at.nearest.stableNormalized();
     const double t = normal_.dot(origin_ - from) / normal_.dot(along);
@@ -71,7 +71,7 @@ void add_region(Cells& cells, const Scene& scene, const MapRegion& region, int n
   for (const Point& p : corners) ids.push_back(cells.add_point(p));
   cells.add_polygon(ids, colour);
   cells.value("region", {number});
-  cells.value("patch", {region.patch});
+  cells.value("patch", {region.patches[0]});
   cells.value("facet", {region.facets[0]});
   cells.value("facets", fmt::format("{}", fmt::join(region.facets, " ")));
   cells.value("object", {scene.facets()[region.facets[0]].object});
@@ -98,13 +98,14 @@ void add_vertex(Cells& cells, const MapVertex& vertex, int number, const Point& 
   cells.value("corner", {vertex.corner});
 }
 
-Cells regions_in_space(const Scene& scene, const PointView& view, Stage& stage) {
+Cells regions_in_space(const Scene& scene, const PointView& view,
+                       const PicturePlane& picture, Stage& stage) {
   Cells cells;
   const std::vector<Colour> colours = object_colours(scene);
   for (std::size_t i = 0; i < view.regions.size(); ++i) {
     stage.at(i, view.regions.size());
     const MapRegion& region = view.regions[i];
-    if (region.patch < 0 || region.facets.empty()) continue;
+    if (region.patches.empty() || region.facets.empty()) continue;
     const FacetPlane plane(scene, region.facets[0], view);
     Rings rings;
     for (const std::vector<int>& walk : region.boundary) {
@@ -115,7 +116,7 @@ Cells regions_in_space(const Scene& scene, const PointView& view, Stage& stage) 
       std::vector<Point> corners;
       for (const PlanePoint& p : polygon) corners.push_back(plane.in_space(p));
       add_region(cells, scene, region, static_cast<int>(i), corners,
-                 colour_of_facet(scene, region.facets[0], colours));
+                 colour_of_facet(scene, region.facets[0], view, picture, colours));
     }
   }
   return cells;
@@ -135,7 +136,7 @@ std::vector<std::optional<Point>> points_of_vertices(const PointView& view) {
   std::vector<std::optional<Point>> points(view.vertices.size());
   const Point& eye = view.eye.at.nearest;
   const auto depth = [&](const Point& p) {
-    return view.eye.kind == Viewpoint::Kind::Point ? (p - eye).norm() : -p.dot(eye);
+    return view.eye.kind == Viewpoint::Kind::Eye ? (p - eye).norm() : -p.dot(eye);
   };
   for (const MapEdge& edge : view.edges) {
     for (const int end : {0, 1}) {
@@ -211,7 +212,7 @@ std::vector<std::string> write_vtk_views(const std::filesystem::path& folder,
     const PointView& view = *views[i].view;
     const ViewDrawing& drawing = *views[i].drawing;
     const std::string prefix = fmt::format("view{}_", i);
-    write(prefix + "regions", regions_in_space(scene, view, stage), true);
+    write(prefix + "regions", regions_in_space(scene, view, drawing.plane, stage), true);
     write(prefix + "edges", edges_in_space(view), true);
     write(prefix + "vertices", vertices_in_space(view), true);
     write(prefix + "picture_regions", drawn_regions(scene, view, drawing, stage), false);

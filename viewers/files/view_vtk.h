@@ -19,10 +19,10 @@ struct ViewAndDrawing {
 /// Writes into `folder` the scene, as write_vtk() does, and of each view, `viewN_` before
 /// each name (N from 0):
 ///   regions.vtp   in space, on the planes of their facets; cell arrays region, patch,
-///                 facet (the first), facets (text), object, measure (NaN if infinite)
-///   edges.vtp     the pieces of lines in space; edge, line (an edge of the scene, or
-///   -1),
-///                 facets (of a crossing, or -1), kind, ends, left, right
+///                 facet (of several the first), facets (text), object, measure (NaN if
+///                 infinite)
+///   edges.vtp     the pieces of lines in space; edge, line (an edge of the scene; -1 for
+///                 a crossing), facets (of a crossing; else -1), kind, ends, left, right
 ///   vertices.vtp  in space, of points in one line of sight the nearest; vertex, kind,
 ///                 corner
 ///   picture_regions.vtp, picture_edges.vtp, picture_vertices.vtp

@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-#include "linespace/point_view.h"
+#include "linespace/visibility_map.h"
 
 namespace sightline::viewers {
 

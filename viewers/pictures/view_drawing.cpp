@@ -18,9 +18,11 @@ void add_regions(ViewDrawing& drawing, const Scene& scene, const PointView& view
   const std::vector<Colour> colours = object_colours(scene);
   for (std::size_t i = 0; i < view.regions.size(); ++i) {
     const MapRegion& region = view.regions[i];
-    if (region.patch < 0 || region.facets.empty()) continue;
+    if (region.patches.empty() || region.facets.empty()) continue;
     DrawnRegion drawn{
-        static_cast<int>(i), colour_of_facet(scene, region.facets[0], colours), {}};
+        static_cast<int>(i),
+        colour_of_facet(scene, region.facets[0], view, drawing.plane, colours),
+        {}};
     for (const std::vector<int>& walk : region.boundary) {
       std::vector<PlanePoint> ring = drawing.plane.clipped_polygon(ring_of(view, walk));
       if (!ring.empty()) drawn.rings.push_back(std::move(ring));
@@ -67,21 +69,24 @@ std::vector<Point> ring_of(const PointView& view, const std::vector<int>& walk) 
   return ring;
 }
 
-Colour colour_of_facet(const Scene& scene, int facet,
+Colour colour_of_facet(const Scene& scene, int facet, const PointView& view,
+                       const PicturePlane& plane,
                        const std::vector<Colour>& object_colours) {
   const Facet& f = scene.facets()[facet];
   const auto corners = scene.face_points(f.faces[0]);
   const Point& a = scene.point(corners[0]);
-  const Point normal = (scene.point(corners[1]) - a)
-                           .stableNormalized()
-                           .cross((scene.point(corners[2]) - a).stableNormalized())
-                           .stableNormalized();
-  // No two facets of a box are turned alike to this light.
-  const Point light = Point(0.36, -0.62, 0.70).normalized();
-  const auto shade = static_cast<float>(0.80 + 0.20 * normal.dot(light));
+  Point normal = (scene.point(corners[1]) - a)
+                     .stableNormalized()
+                     .cross((scene.point(corners[2]) - a).stableNormalized())
+                     .stableNormalized();
+  const Point& eye = view.eye.at.nearest;
+  const bool far = view.eye.kind == Viewpoint::Kind::Direction;
+  if (normal.dot(far ? eye : Point(eye - a)) < 0) normal = -normal;
+  const auto& [right, up, forward] = plane.axes();
+  const Point light = (0.70 * up - 0.42 * right - 0.58 * forward).normalized();
+  const auto shade = static_cast<float>(0.78 + 0.22 * normal.dot(light));
   const Colour& c = object_colours[f.object];
-  return {std::min(1.0F, shade * c.red), std::min(1.0F, shade * c.green),
-          std::min(1.0F, shade * c.blue)};
+  return {shade * c.red, shade * c.green, shade * c.blue};
 }
 
 LineStyle style_of(MapEdgeKind kind) {

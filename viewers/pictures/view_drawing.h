@@ -43,8 +43,10 @@ struct ViewDrawing {
 [[nodiscard]] std::vector<Point> ring_of(const PointView& view,
                                          const std::vector<int>& walk);
 
-/// The object's colour, lighter or darker as the facet is turned.
-[[nodiscard]] Colour colour_of_facet(const Scene& scene, int facet,
+/// The colour of a facet's object, lighter or darker as the side that is seen is turned
+/// to a light above the viewer's left shoulder.
+[[nodiscard]] Colour colour_of_facet(const Scene& scene, int facet, const PointView& view,
+                                     const PicturePlane& plane,
                                      const std::vector<Colour>& object_colours);
 
 /// Of pictures whose longer side measures 1000.

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <optional>
 #include <string_view>
 
 #include "linespace/portals.h"
@@ -33,26 +29,6 @@ std::vector<Point> portal_of(const JsonInput& item) {
     item.refuse(what.substr(what.find(": ") + 2));
   }
   return portal;
-}
-
-/// The whole text as a finite double; nullopt for anything else.
-std::optional<double> double_of(const std::string& text) {
-  double x = 0;
-  const char* const end = text.data() + text.size();
-  const auto [at, error] = std::from_chars(text.data(), end, x);
-  if (error != std::errc() || at != end || !std::isfinite(x)) return std::nullopt;
-  return x;
-}
-
-/// Doubles are taken as they are; with a coordinate that is none, all go as text.
-Viewpoint eye_of(Viewpoint::Kind kind, const std::array<std::string, 3>& coordinates) {
-  Point p;
-  for (int axis = 0; axis < 3; ++axis) {
-    const std::optional<double> x = double_of(coordinates[axis]);
-    if (!x) return viewpoint(kind, coordinates);
-    p[axis] = *x;
-  }
-  return kind == Viewpoint::Kind::Point ? eye_at(p) : eye_far_along(p);
 }
 
 std::array<std::string, 3> three_texts(const std::string& text) {
@@ -108,8 +84,8 @@ std::vector<ViewQuestion> view_questions(const JsonInput& file) {
     const std::array<std::string, 3> asked = where.coordinates();
     try {
       const Viewpoint::Kind kind =
-          from ? Viewpoint::Kind::Point : Viewpoint::Kind::Direction;
-      questions.push_back({eye_of(kind, asked), asked, where.told()});
+          from ? Viewpoint::Kind::Eye : Viewpoint::Kind::Direction;
+      questions.push_back({viewpoint(kind, asked), asked, where.told()});
     } catch (const InvalidInput& refusal) {
       where.refuse(refusal.what());
     }
@@ -122,7 +98,7 @@ ViewQuestion view_question(Viewpoint::Kind kind, const std::string& option,
                            const std::string& text) {
   try {
     const std::array<std::string, 3> asked = three_texts(text);
-    return {eye_of(kind, asked), asked, fmt::format("{} {}", option, text)};
+    return {viewpoint(kind, asked), asked, fmt::format("{} {}", option, text)};
   } catch (const InvalidInput& refusal) {
     throw InvalidInput(fmt::format("{} '{}': {}", option, text, refusal.what()));
   }

@@ -15,7 +15,7 @@ Json line_json(const MapLine& line) {
 }
 
 const char* measure_name(const PointView& view) {
-  return view.eye.kind == Viewpoint::Kind::Point ? "solid_angle" : "area";
+  return view.eye.kind == Viewpoint::Kind::Eye ? "solid_angle" : "area";
 }
 
 Json facets_json(const Scene& scene, const PointView& view) {
@@ -91,7 +91,8 @@ Json regions_json(const PointView& view) {
            {"facets", r.facets},
            {measure_name(view), nullptr},
            {"boundary", std::move(boundary)}};
-    if (r.patch >= 0) j["patch"] = r.patch;
+    if (r.patches.size() == 1) j["patch"] = r.patches[0];
+    if (r.patches.size() > 1) j["patch"] = r.patches;
     if (r.measure) j[measure_name(view)] = *r.measure;
     list.push_back(std::move(j));
   }
@@ -155,7 +156,7 @@ Json asked_json(const ViewQuestion& question) {
 
 Json view_json(const Scene& scene, const ViewQuestion& question, const PointView& view,
                bool with_map) {
-  const bool point = view.eye.kind == Viewpoint::Kind::Point;
+  const bool point = view.eye.kind == Viewpoint::Kind::Eye;
   Json j{{point ? "from" : "direction", asked_json(question)},
          {"eye", name(view.place)},
          {"ids", view.place_ids},
@@ -182,7 +183,7 @@ Json view_json(const Scene& scene, const ViewQuestion& question, const PointView
 }
 
 std::string view_csv(const Scene& scene, std::size_t number, const PointView& view) {
-  const bool point = view.eye.kind == Viewpoint::Kind::Point;
+  const bool point = view.eye.kind == Viewpoint::Kind::Eye;
   std::string rows;
   for (const SeenFacet& seen : view.facets) {
     const std::string& object = scene.objects()[scene.facets()[seen.facet].object].name;

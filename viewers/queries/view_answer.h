@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "linespace/point_view.h"
+#include "linespace/visibility_map.h"
 #include "viewers/answer.h"
 #include "viewers/questions.h"
 
