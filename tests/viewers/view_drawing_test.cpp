@@ -9,7 +9,9 @@
 #include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <tuple>
 
+#include "linespace/point_view.h"
 #include "tests/support/add_box.h"
 #include "tests/viewers/convex_view.h"
 #include "viewers/files/view_svg.h"
@@ -207,6 +209,52 @@ TEST(Trapezoids, CoincidentSidesCancel) {
   const std::vector<PlanePoint> beside{{1, 0}, {2, 0}, {2, 1}, {1, 1}};
   EXPECT_NEAR(area(trapezoids({square, beside})), 2, 1e-15);
   EXPECT_TRUE(trapezoids({square, square}).empty());
+}
+
+/// An edge seen from its lesser to its greater corner, with the facets to its left and
+/// right, -1 for background.
+using SeenEdge = std::tuple<int, int, MapEdgeKind, int, int>;
+
+std::set<SeenEdge> seen_edges(const PointView& view) {
+  std::set<SeenEdge> edges;
+  for (const MapEdge& e : view.edges) {
+    int a = view.vertices[e.ends[0]].corner, b = view.vertices[e.ends[1]].corner;
+    const auto facet = [&](int region) {
+      const std::vector<int>& facets = view.regions[region].facets;
+      return facets.empty() ? -1 : facets[0];
+    };
+    int left = facet(e.left), right = facet(e.right);
+    if (a > b) {
+      std::swap(a, b);
+      std::swap(left, right);
+    }
+    edges.insert({a, b, e.kind, left, right});
+  }
+  return edges;
+}
+
+// What the other tests write down by hand is what the library finds.
+TEST(ViewDrawing, HandMadeViewsAreThoseOfTheIndex) {
+  const Scene scene = box({-1, 0, 2}, {1, 3, 3});
+  const PointViewIndex index(scene);
+  for (const Viewpoint& eye : {eye_at({6, 5, 4}), eye_far_along({6, 5, 4}),
+                               eye_at({-3, 1, 0}), eye_far_along({-1, -2, 3})}) {
+    const PointView found = index.view(eye);
+    const PointView made = convex_view(scene, eye);
+    EXPECT_EQ(seen_edges(found), seen_edges(made));
+    for (const MapVertex& v : found.vertices) {
+      const auto same = std::ranges::find(made.vertices, v.corner, &MapVertex::corner);
+      ASSERT_NE(same, made.vertices.end());
+      EXPECT_LT((v.at - same->at).norm(), 1e-14);
+    }
+    // Walks have the region on the left: all that is drawn is counter-clockwise.
+    double sum = 0;
+    for (const DrawnRegion& region : view_drawing(scene, found).regions) {
+      EXPECT_GT(area(region.rings), 0);
+      sum += area(region.rings);
+    }
+    EXPECT_GT(sum, 0);
+  }
 }
 
 TEST(ViewDrawing, ACubeFromACorner) {

@@ -283,6 +283,10 @@ void write_bytes(OutputFile& file, const std::string& bytes) {
   file.commit();
 }
 
+std::string told(const OutputFile& file) {
+  return file.target().empty() ? "standard output" : file.target().string();
+}
+
 void write_pictures(Session& session, const LookOptions& options, const Scene& scene,
                     const AllSeen& all, const std::vector<ViewDrawing>& drawings,
                     const PictureFiles& files) {
@@ -291,12 +295,12 @@ void write_pictures(Session& session, const LookOptions& options, const Scene& s
     const PointView& view = *all.views[i].view;
     drawn.push_back({&view, &drawings[i]});
     if (!files.svg.empty()) {
-      session.write("--svg", [&](const Request&) {
+      session.write(told(*files.svg[i]), [&](const Request&) {
         write_bytes(*files.svg[i], view_svg(scene, view, drawings[i]));
       });
     }
     if (!files.png.empty()) {
-      session.write("--png", [&](const Request& request) {
+      session.write(told(*files.png[i]), [&](const Request& request) {
         write_bytes(*files.png[i],
                     encode_png(view_image(drawings[i], view, options.pixels, request)));
       });
