@@ -142,6 +142,7 @@ TEST_F(CliLook, HasASummaryForPeople) {
   EXPECT_NE(out().find("from 9,8,7, eye free"), std::string::npos) << out();
   ASSERT_EQ(look(kCube + " --from 9,8,7 --svg -"), 0) << err();
   EXPECT_TRUE(out().starts_with("<?xml"));
+  EXPECT_TRUE(out().ends_with("</svg>\n")) << "and nothing else goes there";
 }
 
 TEST_F(CliLook, ACubeFromACornerDirection) {
@@ -293,8 +294,8 @@ TEST_F(CliLook, WhatTheBudgetLeavesIsNull) {
 
 TEST_F(CliLook, RefusesWhatItCannotAnswerInOneLine) {
   expect_refused(kCube, "from where?");
-  expect_refused(kCube + " --from 1,2", "--from '1,2'");
-  expect_refused(kCube + " --from 1,2,3,4", "--from '1,2,3,4'");
+  expect_refused(kCube + " --from 1,2", "--from '1,2': expected x,y,z");
+  expect_refused(kCube + " --from 1,2,3,4", "--from '1,2,3,4': expected x,y,z");
   expect_refused(kCube + " --from 1,two,3", "--from '1,two,3'");
   expect_refused(kCube + " --from 1,,3", "--from '1,,3'");
   expect_refused(kCube + " --from 1,2,nan", "--from '1,2,nan'");

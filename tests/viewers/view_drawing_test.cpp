@@ -279,13 +279,13 @@ TEST(ViewDrawing, WhatIsOutsideOfTheWindowIsLeftOut) {
   const PointView view = plan_with_hole();
   const Scene scene = box({0, 0, 0}, {4, 4, 1});
   PictureWish wish;
-  wish.window = PlaneWindow{{-0.5, -1}, {2, 1.5}};
+  wish.window = PlaneWindow{{0.5, -1}, {2, 1.5}};
   const ViewDrawing drawing = view_drawing(scene, view, wish);
-  EXPECT_EQ(drawing.edges.size(), 4U);  // two of the slab, two of the box
-  EXPECT_EQ(drawing.vertices.size(), 2U);
+  EXPECT_EQ(drawing.edges.size(), 3U);  // one of the slab, two of the box
+  EXPECT_EQ(drawing.vertices.size(), 1U);
   ASSERT_EQ(drawing.regions.size(), 2U);
-  // 2 by 1.5 without 1 by 0.5; and that.
-  EXPECT_NEAR(area(drawing.regions[0].rings), 2.5, 1e-12);
+  // 1.5 by 1.5 without 1 by 0.5; and that.
+  EXPECT_NEAR(area(drawing.regions[0].rings), 1.75, 1e-12);
   EXPECT_NEAR(area(drawing.regions[1].rings), 0.5, 1e-12);
 }
 
