@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "linespace/picture/patches.h"
@@ -22,7 +23,12 @@ void ViewScene::add_lines() {
   const Scene& scene = *scene_;
   for (int e = 0; e < static_cast<int>(scene.edges().size()); ++e) {
     lines_.push_back({scene.edges()[e].points, {e, {-1, -1}}});
+    edge_ids_.push_back(e);
   }
+  std::ranges::stable_sort(edge_ids_, {}, [&](int e) { return scene.edges()[e].object; });
+  edge_starts_.assign(scene.objects().size() + 1, 0);
+  for (const Edge& e : scene.edges()) ++edge_starts_[e.object + 1];
+  std::partial_sum(edge_starts_.begin(), edge_starts_.end(), edge_starts_.begin());
   // Flat sides at which a facet is bent, by their points.
   std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> flat_sides;
   for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
@@ -95,21 +101,20 @@ Sign ViewScene::plane_side(int face, int point) const {
   return static_cast<Sign>(exact_plane_value(face, exact(point)).sign());
 }
 
-bool ViewScene::on_one_line(int line, int other) const {
-  if (line == other) return true;
-  const auto [a, b] = lines_[line].ends;
-  for (const int p : lines_[other].ends) {
-    if (p == a || p == b) continue;
-    if (is_constructed(a) || is_constructed(b) || is_constructed(p)) {
-      const ExactPoint at = exact(a);
-      const ExactPoint normal =
-          exact_cross(exact_difference(exact(b), at), exact_difference(exact(p), at));
-      if (normal != ExactPoint{}) return false;
-    } else if (!collinear(scene_->point(a), scene_->point(b), scene_->point(p))) {
-      return false;
-    }
+bool ViewScene::in_line(int a, int b, int p) const {
+  if (p == a || p == b) return true;
+  if (!is_constructed(a) && !is_constructed(b) && !is_constructed(p)) {
+    return collinear(scene_->point(a), scene_->point(b), scene_->point(p));
   }
-  return true;
+  const ExactPoint at = exact(a);
+  return exact_cross(exact_difference(exact(b), at), exact_difference(exact(p), at)) ==
+         ExactPoint{};
+}
+
+bool ViewScene::on_one_line(int line, int other) const {
+  const auto [a, b] = lines_[line].ends;
+  const auto [c, d] = lines_[other].ends;
+  return line == other || (in_line(a, b, c) && in_line(a, b, d));
 }
 
 }  // namespace sightline::internal

@@ -40,6 +40,12 @@ class ViewScene {
   /// Crossings of a face with others, as line numbers.
   [[nodiscard]] std::span<const int> crossings_of(int face) const;
 
+  /// Scene edges of an object.
+  [[nodiscard]] std::span<const int> edges_of(int object) const {
+    return std::span(edge_ids_).subspan(edge_starts_[object],
+                                        edge_starts_[object + 1] - edge_starts_[object]);
+  }
+
   /// Points are numbered as in the scene; then come the ends of crossings.
   [[nodiscard]] int point_count() const {
     return static_cast<int>(scene_->points().size() + constructed_.size());
@@ -60,6 +66,8 @@ class ViewScene {
   [[nodiscard]] Sign plane_side(int face, int point) const;
   [[nodiscard]] Rational exact_plane_value(int face, const ExactPoint& p) const;
 
+  /// Does point p lie on the straight line through a and b in space?
+  [[nodiscard]] bool in_line(int a, int b, int p) const;
   /// Do the two lie on one straight line in space?
   [[nodiscard]] bool on_one_line(int line, int other) const;
 
@@ -78,6 +86,7 @@ class ViewScene {
   std::vector<ViewLine> lines_;
   std::vector<int> side_lines_;
   std::vector<int> crossing_starts_, crossing_lines_;  // by face
+  std::vector<int> edge_starts_, edge_ids_;            // by object
   std::vector<ExactPoint> constructed_;
   std::vector<int> patches_;
 };

@@ -25,7 +25,7 @@ class Joiner {
     number_ends();
     split();
     drop_doubles();
-    return {std::move(points_), std::move(edges_)};
+    return {std::move(points_), std::move(scene_points_), std::move(edges_)};
   }
 
  private:
@@ -40,6 +40,7 @@ class Joiner {
   const EyeSpace* eye_;
   const std::vector<LinePiece>* pieces_;
   std::vector<PicturePoint> points_;
+  std::vector<std::vector<int>> scene_points_;
   std::vector<std::array<int, 2>> ends_;  // of pieces
   std::vector<JoinedEdge> edges_;
 };
@@ -91,9 +92,14 @@ void Joiner::number_ends() {
     if (numbers[root] < 0) {
       numbers[root] = static_cast<int>(points_.size());
       points_.push_back(found[chosen[root]]);
+      scene_points_.emplace_back();
     }
     numbers[i] = numbers[root];
+    const int p = found[i].point();
+    if (p >= 0 && !eye_->scene().is_constructed(p))
+      scene_points_[numbers[i]].push_back(p);
   }
+  for (auto& points : scene_points_) std::ranges::sort(points);
   for (auto& ends : ends_) ends = {numbers[ends[0]], numbers[ends[1]]};
 }
 
@@ -171,12 +177,15 @@ void Joiner::split() {
   }
 }
 
-// Lines that coincide in space, sides of objects that touch, show the same piece twice:
-// the smallest line number stays.
+// Lines that coincide in space, sides of objects that touch, show the same piece twice: a
+// crossing of facets stays, else the smallest line number.
 void Joiner::drop_doubles() {
   const auto ends = [](const JoinedEdge& e) { return std::minmax(e.ends[0], e.ends[1]); };
   std::ranges::stable_sort(edges_, [&](const JoinedEdge& x, const JoinedEdge& y) {
-    return ends(x) != ends(y) ? ends(x) < ends(y) : x.line < y.line;
+    if (ends(x) != ends(y)) return ends(x) < ends(y);
+    const bool crosses = eye_->scene().lines()[x.line].crossing[0] >= 0;
+    const bool other = eye_->scene().lines()[y.line].crossing[0] >= 0;
+    return crosses != other ? crosses : x.line < y.line;
   });
   const auto doubles = std::ranges::unique(
       edges_,

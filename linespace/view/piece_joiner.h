@@ -19,6 +19,7 @@ struct JoinedEdge {
 
 struct JoinedPieces {
   std::vector<PicturePoint> points;
+  std::vector<std::vector<int>> scene_points;  ///< as in ViewGraph
   std::vector<JoinedEdge> edges;
 };
 

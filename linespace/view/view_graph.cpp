@@ -22,8 +22,13 @@ class GraphBuilder {
   ViewGraph build() {
     JoinedPieces joined = join_ends(*eye_, *pieces_);
     graph_.points = std::move(joined.points);
+    graph_.scene_points = std::move(joined.scene_points);
     for (const JoinedEdge& e : joined.edges) {
-      graph_.edges.push_back({e.line, e.ends});
+      const LinePiece& piece = (*pieces_)[e.piece];
+      const auto first = [](const SeenBeside& s) {
+        return s.faces.empty() ? -1 : s.faces.front();
+      };
+      graph_.edges.push_back({e.line, e.ends, {first(piece.left), first(piece.right)}});
       piece_of_.push_back(e.piece);
     }
     walk_around();

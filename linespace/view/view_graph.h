@@ -22,8 +22,14 @@ struct ViewGraph {
   struct Edge {
     int line;
     std::array<int, 2> ends;  ///< positions in `points`, in the line's own order
+    /// A face that is seen beside the edge and contains it, on the left and on the right;
+    /// -1 where what is seen lies behind.
+    std::array<int, 2> faces;
   };
   std::vector<PicturePoint> points;
+  /// Of each of them the points of the scene that are seen there and end a piece,
+  /// ascending.
+  std::vector<std::vector<int>> scene_points;
   std::vector<Edge> edges;
   /// Of a half-edge: the next one around the region on its left, and that region.
   std::vector<int> next, region;

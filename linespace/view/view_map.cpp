@@ -36,13 +36,12 @@ class MapMaker {
   [[nodiscard]] std::vector<Run> runs(bool seams) const;
   [[nodiscard]] MapEdgeKind kind(int edge) const;
   [[nodiscard]] std::vector<int> patches(int region) const;
-  [[nodiscard]] bool lies_on(int region, int edge) const;
+  [[nodiscard]] bool share_object(int edge) const;
+  [[nodiscard]] ExactPoint exact_place(int line, int point) const;
+  [[nodiscard]] int corner_on(int line, int point) const;
   [[nodiscard]] Point place(int line, int point) const;
   [[nodiscard]] bool meet_at(int line, int other, int point) const;
   [[nodiscard]] MapVertex vertex(int point, std::span<const int> leaving) const;
-  [[nodiscard]] const std::array<int, 2>& line_ends(int edge) const {
-    return eye_->scene().lines()[graph_->edges[edge].line].ends;
-  }
 
   const EyeSpace* eye_;
   const ViewGraph* graph_;
@@ -100,26 +99,32 @@ void MapMaker::find_seams() {
   map_.seams = static_cast<int>(runs(true).size());
 }
 
-// The half-edge that goes on from this one's end where nothing but a straight line passes
-// there; -1 elsewhere.  Seams go on at points of seams alone.
+// The half-edge that goes on from this one's end along the same line in space, with the
+// same beside it; -1 where none does.  An edge of the map goes on where no third one
+// ends.
 int MapMaker::straight_on(int half_edge) const {
-  const int at = graph_->origin(half_edge ^ 1);
+  const int back = half_edge ^ 1;
+  const auto goes_on = [&](int other) {
+    return other != back && eye_->scene().on_one_line(graph_->edges[half_edge / 2].line,
+                                                      graph_->edges[other / 2].line);
+  };
   if (seam_[half_edge / 2] == 0) {
-    const auto& leaving = leaving_[at];
+    const auto& leaving = leaving_[graph_->origin(back)];
     if (leaving.size() != 2) return -1;
-    const int other = leaving[0] == (half_edge ^ 1) ? leaving[1] : leaving[0];
-    return eye_->scene().on_one_line(graph_->edges[half_edge / 2].line,
-                                     graph_->edges[other / 2].line)
-               ? other
-               : -1;
+    const int other = leaving[0] == back ? leaving[1] : leaving[0];
+    return goes_on(other) ? other : -1;
   }
-  const int next = graph_->next[half_edge];
-  const bool alone = next != (half_edge ^ 1) &&
-                     graph_->next[next ^ 1] == (half_edge ^ 1) && seam_[next / 2] != 0;
-  return alone && eye_->scene().on_one_line(graph_->edges[half_edge / 2].line,
-                                            graph_->edges[next / 2].line)
-             ? next
-             : -1;
+  const auto label = [&](int h) -> const FacetSides& {
+    return graph_->regions[graph_->region[h]];
+  };
+  for (int other = graph_->next[half_edge]; other != back;
+       other = graph_->next[other ^ 1]) {
+    if (seam_[other / 2] != 0 && label(other) == label(half_edge) &&
+        label(other ^ 1) == label(back) && goes_on(other)) {
+      return other;
+    }
+  }
+  return -1;
 }
 
 std::vector<MapMaker::Run> MapMaker::runs(bool seams) const {
@@ -188,16 +193,11 @@ Point MapMaker::place(int line, int point) const {
   return p + share * (q - p);
 }
 
-// What is seen in the region, beside the edge, contains it.
-bool MapMaker::lies_on(int region, int edge) const {
-  const auto ends = line_ends(edge);
-  const Scene& scene = eye_->scene().scene();
-  for (const int side : graph_->regions[region]) {
-    for (const int f : scene.facets()[side / 2].faces) {
-      if (eye_->scene().plane_side(f, ends[0]) == Sign::Zero &&
-          eye_->scene().plane_side(f, ends[1]) == Sign::Zero) {
-        return true;
-      }
+bool MapMaker::share_object(int edge) const {
+  const auto& facets = eye_->scene().scene().facets();
+  for (const int x : graph_->regions[graph_->left(edge)]) {
+    for (const int y : graph_->regions[graph_->right(edge)]) {
+      if (facets[x / 2].object == facets[y / 2].object) return true;
     }
   }
   return false;
@@ -206,30 +206,35 @@ bool MapMaker::lies_on(int region, int edge) const {
 MapEdgeKind MapMaker::kind(int edge) const {
   const ViewScene& scene = eye_->scene();
   const ViewLine& line = scene.lines()[graph_->edges[edge].line];
-  if (line.crossing[0] >= 0) return MapEdgeKind::Crossing;
-  const int left = graph_->left(edge), right = graph_->right(edge);
-  const bool on_left = lies_on(left, edge), on_right = lies_on(right, edge);
-  if (!on_left || !on_right) {
+  const auto [left, right] = graph_->edges[edge].faces;
+  if (line.crossing[0] >= 0 && left >= 0 && right >= 0) return MapEdgeKind::Crossing;
+  if (left < 0 || right < 0) {
     const bool one_face =
         line.name.edge >= 0 && scene.scene().edges()[line.name.edge].sides.size() == 1;
     return one_face ? MapEdgeKind::Boundary : MapEdgeKind::Silhouette;
   }
-  const auto object = [&](int region) {
-    return scene.scene().facets()[graph_->regions[region].front() / 2].object;
-  };
-  if (object(left) != object(right)) return MapEdgeKind::Contact;
-  // A point of the right side's facet, off the left side's plane: on the eye's side of
-  // that plane it makes a valley.
-  const auto& facets = scene.scene().facets();
-  const int face = facets[graph_->regions[left].front() / 2].faces.front();
-  for (const int f : facets[graph_->regions[right].front() / 2].faces) {
-    for (const int c : scene.scene().face_points(f)) {
-      const Sign s = eye_->before(face, c);
-      if (s != Sign::Zero)
-        return s == Sign::Positive ? MapEdgeKind::Valley : MapEdgeKind::Crease;
-    }
+  if (!share_object(edge)) return MapEdgeKind::Contact;
+  // A point of the right face, seen on the right of the edge: on the eye's side of the
+  // left face's plane it makes a valley.
+  for (const int c : scene.scene().face_points(right)) {
+    if (eye_->orient(line.ends[0], line.ends[1], c) != Sign::Negative) continue;
+    return eye_->before(left, c) == Sign::Positive ? MapEdgeKind::Valley
+                                                   : MapEdgeKind::Crease;
   }
   return MapEdgeKind::Crease;
+}
+
+// Where a line passes a point of its picture, exactly.
+ExactPoint MapMaker::exact_place(int line, int point) const {
+  const auto [a, b] = eye_->scene().lines()[line].ends;
+  const ExactPoint& w = graph_->points[point].exact();
+  const ExactPoint m = exact_cross(eye_->exact_vector(a), w);
+  const ExactPoint n = exact_cross(w, eye_->exact_vector(b));
+  // w = s u + t v: m and n are t and s times u x v.
+  int i = 0;
+  while (i < 2 && m[i] + n[i] == 0) ++i;
+  return along(eye_->scene().exact(a), eye_->scene().exact(b),
+               quotient(m[i], Rational(m[i] + n[i])));
 }
 
 // Two lines seen to cross in a point of the picture pass one point of space there.
@@ -240,9 +245,13 @@ bool MapMaker::meet_at(int line, int other, int point) const {
   const auto [c, d] = scene.lines()[other].ends;
   const int at = graph_->points[point].point();
   if (at >= 0 && (at == a || at == b) && (at == c || at == d)) return true;
-  const bool along =
+  // In one plane with the eye, or not: then they meet in space iff they lie in one plane.
+  const bool in_line =
       eye_->orient(a, b, c) == Sign::Zero && eye_->orient(a, b, d) == Sign::Zero;
-  if (along) return scene.on_one_line(line, other);
+  if (in_line) {
+    return scene.on_one_line(line, other) ||
+           exact_place(line, point) == exact_place(other, point);
+  }
   if (scene.is_constructed(a) || scene.is_constructed(b) || scene.is_constructed(c) ||
       scene.is_constructed(d)) {
     return exact_orient(scene.exact(a), scene.exact(b), scene.exact(c), scene.exact(d)) ==
@@ -250,6 +259,17 @@ bool MapMaker::meet_at(int line, int other, int point) const {
   }
   const Scene& s = scene.scene();
   return orient3d(s.point(a), s.point(b), s.point(c), s.point(d)) == Sign::Zero;
+}
+
+// The corner of the scene that lies on the line where it passes this point; -1 if none.
+int MapMaker::corner_on(int line, int point) const {
+  const ViewScene& scene = eye_->scene();
+  const auto [a, b] = scene.lines()[line].ends;
+  for (const int p : graph_->scene_points[point]) {
+    if (!std::ranges::binary_search(scene.scene().corners(), p)) continue;
+    if (p == a || p == b || scene.in_line(a, b, p)) return p;
+  }
+  return -1;
 }
 
 MapVertex MapMaker::vertex(int point, std::span<const int> leaving) const {
@@ -271,28 +291,14 @@ MapVertex MapMaker::vertex(int point, std::span<const int> leaving) const {
     }
   }
   if (meeting.size() == 1) {
-    v.kind = MapVertexKind::Touch;
-    const int p = graph_->points[point].point();
-    if (p >= 0 && !eye_->scene().is_constructed(p)) {
-      const auto corners = eye_->scene().scene().corners();
-      // The point is seen, and not one before or behind it, if a line there ends in it.
-      const bool seen = std::ranges::any_of(leaving, [&](int h) {
-        const auto& ends = line_ends(h / 2);
-        return ends[0] == p || ends[1] == p;
-      });
-      if (seen && std::ranges::binary_search(corners, p)) {
-        v.kind = MapVertexKind::Corner;
-        v.corner = p;
-      }
-    }
+    v.corner = corner_on(line(leaving.front()), point);
+    v.kind = v.corner >= 0 ? MapVertexKind::Corner : MapVertexKind::Touch;
   } else if (meeting.size() == 2) {
     // A nearer line that goes straight on, and a farther one that ends behind it.
     for (int i = 0; i < 2; ++i) {
       const auto &near = meeting[i], &far = meeting[1 - i];
       if (near.size() != 2 || far.size() != 1) continue;
-      const auto& ends = line_ends(far.front() / 2);
-      const int p = graph_->points[point].point();
-      if (p >= 0 && (ends[0] == p || ends[1] == p)) continue;
+      if (corner_on(line(far.front()), point) >= 0) continue;
       if (!eye_->scene().on_one_line(line(near[0]), line(near[1]))) continue;
       v.kind = MapVertexKind::T;
       v.near = eye_->scene().lines()[std::min(line(near[0]), line(near[1]))].name;

@@ -153,9 +153,11 @@ ViewMeasures measure(const EyeSpace& eye, const ViewGraph& graph,
   double of_facets = 0;
   for (std::size_t r = 0; r < regions.size(); ++r) {
     measures.regions.emplace_back(std::nullopt);
-    if (background[r]) continue;
-    measures.regions[r] = measurer.value(regions[r]);
-    of_facets += *measures.regions[r];
+    const double value = measurer.value(regions[r]);
+    // What reaches round the picture of a direction has a boundary that runs clockwise.
+    if (background[r] && (!eye.is_direction() || value <= 0)) continue;
+    measures.regions[r] = value;
+    of_facets += value;
   }
   if (eye.is_direction()) return measures;
   // Sums tell solid angles up to whole spheres.
