@@ -11,6 +11,7 @@
 #include <set>
 #include <tuple>
 
+#include "linespace/mesh_io.h"
 #include "linespace/point_view.h"
 #include "tests/support/add_box.h"
 #include "tests/viewers/convex_view.h"
@@ -465,6 +466,40 @@ TEST_F(ViewVtk, RegionsLieOnTheirFacets) {
     EXPECT_EQ(all.veils.size(), 6U);
     EXPECT_EQ(all.strokes.size(), 9U);
   }
+}
+
+/// Of the triangle, as the eye in the origin sees it (van Oosterom and Strackee 1983).
+double solid_angle(const Point& a, const Point& b, const Point& c) {
+  const double la = a.norm(), lb = b.norm(), lc = c.norm();
+  return std::abs(2 * std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc +
+                                                        b.dot(c) * la + c.dot(a) * lb));
+}
+
+// The polygons of a room cover what the measures say, holes and all.
+TEST_F(ViewVtk, RegionsCoverWhatIsSeen) {
+  const Scene scene(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj"));
+  const PointViewIndex index(scene);
+  const Point eye(5, 1.6, 4);
+  const PointView from = index.view(eye_at(eye)),
+                  far = index.view(eye_far_along({1, 2, 3}));
+  const ViewDrawing near_drawing = view_drawing(scene, from);
+  const ViewDrawing far_drawing = view_drawing(scene, far);
+  write_vtk_views(folder_, scene, {{&from, &near_drawing}, {&far, &far_drawing}});
+  double expected = 0, sum = 0;
+  for (const MapRegion& r : from.regions) expected += r.patches.empty() ? 0 : *r.measure;
+  for (const VeilTriangle& veil : read_vtk(folder_ / "view0_regions.vtp").veils) {
+    const auto& [a, b, c] = veil.points;
+    sum += solid_angle(a - eye, b - eye, c - eye);
+    EXPECT_GE((b - a).cross(c - a).dot(eye - a), -1e-15);  // counter-clockwise
+  }
+  EXPECT_NEAR(sum, expected, 1e-9);
+  expected = sum = 0;
+  for (const MapRegion& r : far.regions) expected += r.patches.empty() ? 0 : *r.measure;
+  for (const VeilTriangle& veil : read_vtk(folder_ / "view1_picture_regions.vtp").veils) {
+    const auto& [a, b, c] = veil.points;
+    sum += (b - a).cross(c - a).norm() / 2;
+  }
+  EXPECT_NEAR(sum, expected, 1e-9);
 }
 
 TEST_F(ViewVtk, ARegionWithAHoleIsCut) {

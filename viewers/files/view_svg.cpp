@@ -37,14 +37,14 @@ std::string pair_text(const PlanePoint& p) {
   return fmt::format("{:.7g} {:.7g}", p.x(), p.y());
 }
 
-std::string style_sheet() {
+std::string style_sheet(std::size_t edges) {
   std::string css =
       "  .patch { stroke: none; }\n  line { stroke-linecap: round; }\n"
       "  circle { fill: #16181f; }\n";
   for (const MapEdgeKind kind :
        {MapEdgeKind::Silhouette, MapEdgeKind::Crease, MapEdgeKind::Valley,
         MapEdgeKind::Boundary, MapEdgeKind::Contact, MapEdgeKind::Crossing}) {
-    const LineStyle style = style_of(kind);
+    const LineStyle style = style_of(kind, edges);
     css += fmt::format("  .{} {{ stroke: {}; stroke-width: {:g}; }}\n", name(kind),
                        hex(style.colour), style.width);
   }
@@ -120,7 +120,7 @@ std::string view_svg(const Scene& scene, const PointView& view,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.7g} {1:.7g}\" "
       "width=\"{0:.7g}\" height=\"{1:.7g}\">\n<style>\n{2}</style>\n"
       "<rect class=\"paper\" width=\"{0:.7g}\" height=\"{1:.7g}\" fill=\"{3}\"/>\n",
-      sheet.size().x(), sheet.size().y(), style_sheet(), hex(kPaper));
+      sheet.size().x(), sheet.size().y(), style_sheet(drawing.edges.size()), hex(kPaper));
   text += "<g id=\"patches\">\n";
   for (const DrawnRegion& drawn : drawing.regions) {
     text += patch_element(scene, view.regions[drawn.region], drawn, sheet);

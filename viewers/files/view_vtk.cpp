@@ -5,7 +5,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
-#include <set>
 
 #include "viewers/files/vtk_cells.h"
 #include "viewers/output_file.h"
@@ -20,7 +19,7 @@ namespace {
 using internal::Stage;
 using Rings = std::vector<std::vector<PlanePoint>>;
 
-/// The plane of a facet with coordinates in it.
+/// The plane of a facet with coordinates in it, counter-clockwise as the eye sees it.
 class FacetPlane {
  public:
   FacetPlane(const Scene& scene, int facet, const PointView& view)
@@ -30,6 +29,9 @@ class FacetPlane {
     u_ = (scene.point(corners[1]) - origin_).stableNormalized();
     const Point w = (scene.point(corners[2]) - origin_).stableNormalized();
     normal_ = u_.cross(w).stableNormalized();
+    const Point& eye = view.eye.at.nearest;
+    const bool far = view.eye.kind == Viewpoint::Kind::Direction;
+    if (normal_.dot(far ? eye : Point(eye - origin_)) < 0) normal_ = -normal_;
     v_ = normal_.cross(u_);
   }
 
@@ -54,15 +56,21 @@ class FacetPlane {
   Point origin_, u_, v_, normal_;
 };
 
-/// As it is where it is one ring without a point twice, else in pieces.
-Rings polygons_of(const Rings& rings) {
-  if (rings.size() != 1) return trapezoids(rings);
-  const auto less = [](const PlanePoint& a, const PlanePoint& b) {
-    return std::pair(a.x(), a.y()) < std::pair(b.x(), b.y());
-  };
-  const std::set<PlanePoint, decltype(less)> points(rings[0].begin(), rings[0].end(),
-                                                    less);
-  return points.size() == rings[0].size() ? rings : trapezoids(rings);
+/// Turns left, or goes straight on, at each corner.
+bool is_convex(const std::vector<PlanePoint>& ring) {
+  const std::size_t n = ring.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const PlanePoint before = ring[(i + 1) % n] - ring[i];
+    const PlanePoint after = ring[(i + 2) % n] - ring[(i + 1) % n];
+    if (before.x() * after.y() - before.y() * after.x() < 0) return false;
+  }
+  return true;
+}
+
+/// Convex, since not all readers fill others rightly.  The boundary of a region turns
+/// once around it, so that left turns alone make it convex.
+Rings convex_polygons(const Rings& rings) {
+  return rings.size() == 1 && is_convex(rings[0]) ? rings : trapezoids(rings);
 }
 
 void add_region(Cells& cells, const Scene& scene, const MapRegion& region, int number,
@@ -112,7 +120,7 @@ Cells regions_in_space(const Scene& scene, const PointView& view,
       std::vector<PlanePoint>& ring = rings.emplace_back();
       for (const Point& at : ring_of(view, walk)) ring.push_back(plane.seen(at));
     }
-    for (const std::vector<PlanePoint>& polygon : polygons_of(rings)) {
+    for (const std::vector<PlanePoint>& polygon : convex_polygons(rings)) {
       std::vector<Point> corners;
       for (const PlanePoint& p : polygon) corners.push_back(plane.in_space(p));
       add_region(cells, scene, region, static_cast<int>(i), corners,
@@ -164,7 +172,7 @@ Cells drawn_regions(const Scene& scene, const PointView& view, const ViewDrawing
   Cells cells;
   for (const DrawnRegion& drawn : drawing.regions) {
     stage.at(0, drawing.regions.size());
-    for (const std::vector<PlanePoint>& polygon : polygons_of(drawn.rings)) {
+    for (const std::vector<PlanePoint>& polygon : convex_polygons(drawn.rings)) {
       std::vector<Point> corners;
       for (const PlanePoint& p : polygon) corners.push_back(on_paper(p));
       add_region(cells, scene, view.regions[drawn.region], drawn.region, corners,

@@ -28,10 +28,11 @@ struct ViewAndDrawing {
 ///   picture_regions.vtp, picture_edges.vtp, picture_vertices.vtp
 ///                 the same as it is drawn, cut at the window, in the picture's plane
 ///                 (x, y, 0)
-/// A region with holes is cut into triangles and trapezoids; `region` tells which belong
-/// together.  Numbers are those of the answer, `colour` is RGB.  The index sightline.vtm
-/// holds what lies in space.  Returns the names of the files.  Of the request, stop,
-/// budget and progress count: throws Stopped.  Throws OutputError and WriteError.
+/// Polygons are counter-clockwise as the eye sees them.  A region that is not convex
+/// is cut into triangles and trapezoids; `region` tells which belong together.
+/// Numbers are those of the answer, `colour` is RGB.  The index sightline.vtm holds
+/// what lies in space.  Returns the names of the files.  Of the request, stop, budget
+/// and progress count: throws Stopped.  Throws OutputError and WriteError.
 std::vector<std::string> write_vtk_views(const std::filesystem::path& folder,
                                          const Scene& scene,
                                          const std::vector<ViewAndDrawing>& views,

@@ -54,7 +54,8 @@ struct LineStyle {
   Colour colour;
   float width;
 };
-[[nodiscard]] LineStyle style_of(MapEdgeKind kind);
+/// Of a drawing of so many edges: many lines are thin.
+[[nodiscard]] LineStyle style_of(MapEdgeKind kind, std::size_t edges = 1);
 
 /// The paper of these pictures, which is seen where nothing of the scene is.
 constexpr Colour kPaper{0.985F, 0.987F, 0.992F};

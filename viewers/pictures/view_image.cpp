@@ -143,7 +143,7 @@ Image view_image(const ViewDrawing& drawing, const PointView& view, int pixels,
   const double width = kSamples * pixels / 1000.0;
   for (const DrawnEdge& edge : drawing.edges) {
     stage.at(done++, count);
-    const LineStyle style = style_of(view.edges[edge.edge].kind);
+    const LineStyle style = style_of(view.edges[edge.edge].kind, drawing.edges.size());
     samples.stroke(edge.points[0], edge.points[1], style.width * width, style.colour);
   }
   return samples.image();
