@@ -36,8 +36,8 @@ struct Viewpoint {
 /// Throws InvalidInput for the null vector.
 [[nodiscard]] Viewpoint eye_far_along(const Point& direction);
 /// Coordinates as decimal numbers, which are read as the nearest doubles, or as fractions
-/// "p/q" of integers, which are exact.  Throws InvalidInput for other text, for what is not
-/// finite, and for a direction of length 0.
+/// "p/q" of integers, which are exact.  Throws InvalidInput for other text, for what is
+/// not finite, and for a direction of length 0.
 [[nodiscard]] Viewpoint viewpoint(Viewpoint::Kind kind,
                                   const std::array<std::string, 3>& coordinates);
 
@@ -87,7 +87,8 @@ struct MapEdge {
   MapLine line;
   MapEdgeKind kind;
   std::array<int, 2> ends;  ///< vertices
-  /// Regions beside it, going from the first end to the second, as the eye sees it.
+  /// Regions beside it, going from the first end to the second, as the eye sees it; -1
+  /// where an eye on the scene would look into material.
   int left, right;
   /// The piece of the line in space, rounded.
   std::array<Point, 2> segment;
@@ -130,6 +131,7 @@ enum class AccidentKind : std::uint8_t {
 struct Accident {
   AccidentKind kind;
   std::vector<Generator> generators;  ///< ascending
+  friend auto operator<=>(const Accident&, const Accident&) = default;
 };
 
 struct PointView {

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "linespace/picture/classes.h"
 #include "linespace/picture/patches.h"
 #include "linespace/sight/face_crossings.h"
 #include "linespace/work/stage.h"
@@ -12,11 +13,12 @@
 namespace sightline::internal {
 
 ViewScene::ViewScene(const Scene& scene, const Request& request)
-    : scene_(&scene), silhouettes_(scene, EventMode::Solid, request) {
+    : scene_(&scene), silhouettes_(scene, EventMode::Solid, request), solids_(scene) {
   Stage stage(request, "what views share");
   add_lines();
   add_crossings();
-  patches_ = sightline::internal::find_patches(silhouettes_);
+  find_whole_lines();
+  patches_ = find_patches(silhouettes_);
 }
 
 void ViewScene::add_lines() {
@@ -81,6 +83,39 @@ void ViewScene::add_crossings() {
       crossing_lines_.insert(crossing_lines_.end(), of_face[f].begin(), of_face[f].end());
     }
     crossing_starts_[f + 1] = static_cast<int>(crossing_lines_.size());
+  }
+}
+
+void ViewScene::find_whole_lines() {
+  std::vector<Box> boxes;
+  for (const ViewLine& line : lines_) {
+    boxes.push_back(box_of(std::array{position(line.ends[0]), position(line.ends[1])}));
+  }
+  const Bvh tree(boxes);
+  Classes classes(lines_.size());
+  for (int line = 0; line < static_cast<int>(lines_.size()); ++line) {
+    hear_stop();
+    for (const int end : lines_[line].ends) {
+      const Point p = position(end);
+      // Where points are constructed boxes are rounded, too.
+      const double slack = constructed_.empty() ? 0 : 4 * kUnit * p.cwiseAbs().maxCoeff();
+      const auto holds = [&](const Box& box) {
+        for (int i = 0; i < 3; ++i) {
+          if (p[i] < box.min[i] - slack || p[i] > box.max[i] + slack) return false;
+        }
+        return true;
+      };
+      tree.traverse(holds, [&](std::uint32_t item) {
+        const int other = static_cast<int>(item);
+        if (other < line && holds(boxes[item]) && on_one_line(line, other))
+          classes.join(line, other);
+        if (other > line && holds(boxes[item]) && on_one_line(other, line))
+          classes.join(line, other);
+      });
+    }
+  }
+  for (int line = 0; line < static_cast<int>(lines_.size()); ++line) {
+    whole_lines_.push_back(classes.root(line));
   }
 }
 

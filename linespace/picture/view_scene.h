@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linespace/numbers/rational.h"
+#include "linespace/scene/solid_index.h"
 #include "linespace/silhouettes/silhouettes.h"
 #include "linespace/visibility_map.h"
 
@@ -30,8 +31,12 @@ class ViewScene {
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Silhouettes& silhouettes() const { return silhouettes_; }
+  [[nodiscard]] const SolidIndex& solids() const { return solids_; }
 
   [[nodiscard]] std::span<const ViewLine> lines() const { return lines_; }
+  /// The smallest number of all lines that continue this one straight on, with no gap, by
+  /// whatever object.
+  [[nodiscard]] int whole_line(int line) const { return whole_lines_[line]; }
   /// The line on which the side of a face from its corner k to the next lies; -1 where
   /// the face goes on in the same plane.
   [[nodiscard]] int line_of_side(int face, int k) const {
@@ -79,12 +84,13 @@ class ViewScene {
  private:
   void add_lines();
   void add_crossings();
-  void find_patches();
+  void find_whole_lines();
 
   const Scene* scene_;
   Silhouettes silhouettes_;
+  SolidIndex solids_;
   std::vector<ViewLine> lines_;
-  std::vector<int> side_lines_;
+  std::vector<int> side_lines_, whole_lines_;
   std::vector<int> crossing_starts_, crossing_lines_;  // by face
   std::vector<int> edge_starts_, edge_ids_;            // by object
   std::vector<ExactPoint> constructed_;

@@ -50,6 +50,8 @@ Rational side_value(const EyeSpace& eye, int p, int q, const ExactPoint& x) {
   return exact_dot(x, exact_cross(eye.exact_vector(p), eye.exact_vector(q)));
 }
 
+}  // namespace
+
 bool contains(const EyeSpace& eye, int face, const PictureRay& ray) {
   const auto corners = eye.scene().scene().face_points(face);
   const Sign front = eye.front(face);
@@ -57,41 +59,30 @@ bool contains(const EyeSpace& eye, int face, const PictureRay& ray) {
     const int p = corners[k];
     const int q = corners[(k + 1) % corners.size()];
     Sign s = orient(PicturePoint(eye, p), PicturePoint(eye, q), ray.at) * front;
-    if (s == Sign::Zero) {
-      s = static_cast<Sign>(side_value(eye, p, q, ray.beside).sign()) * front;
+    for (std::size_t i = 0; s == Sign::Zero && i < ray.beside.size(); ++i) {
+      s = static_cast<Sign>(side_value(eye, p, q, ray.beside[i]).sign()) * front;
     }
     if (s != Sign::Positive) return false;
   }
   return true;
 }
 
-// How near a plane is, as a linear function of the picture vector: what is larger is
-// nearer.
-class Nearness {
- public:
-  Nearness(const EyeSpace& eye, int face) {
-    const auto t = plane_points(eye.scene().scene(), face);
-    std::array<ExactPoint, 3> v;
-    for (int i = 0; i < 3; ++i) v[i] = eye.exact_vector(t[i]);
-    const Rational whole = exact_dot(v[0], exact_cross(v[1], v[2]));
-    for (int i = 0; i < 3; ++i) {
-      const ExactPoint n = exact_cross(v[(i + 1) % 3], v[(i + 2) % 3]);
-      const Rational weight = quotient(eye.exact_height(t[i]), whole);
-      for (int j = 0; j < 3; ++j) gradient_[j] += weight * n[j];
-    }
+Nearness::Nearness(const EyeSpace& eye, int face) {
+  const auto t = plane_points(eye.scene().scene(), face);
+  std::array<ExactPoint, 3> v;
+  for (int i = 0; i < 3; ++i) v[i] = eye.exact_vector(t[i]);
+  const Rational whole = exact_dot(v[0], exact_cross(v[1], v[2]));
+  for (int i = 0; i < 3; ++i) {
+    const ExactPoint n = exact_cross(v[(i + 1) % 3], v[(i + 2) % 3]);
+    const Rational weight = quotient(eye.exact_height(t[i]), whole);
+    for (int j = 0; j < 3; ++j) gradient_[j] += weight * n[j];
   }
-  [[nodiscard]] Rational at(const ExactPoint& v) const { return exact_dot(gradient_, v); }
+}
 
- private:
-  ExactPoint gradient_{};
-};
-
-}  // namespace
-
-std::vector<int> first_seen(const EyeSpace& eye, const PictureRay& ray,
+std::vector<int> faces_near(const EyeSpace& eye, const PicturePoint& at,
                             std::span<const std::uint8_t> possibly_seen) {
   const ViewScene& scene = eye.scene();
-  const RayBoxes boxes(eye, ray.at);
+  const RayBoxes boxes(eye, at);
   std::vector<int> faces;
   scene.silhouettes().face_tree().traverse(
       [&](const Box& box) { return !boxes.misses(box); },
@@ -99,25 +90,28 @@ std::vector<int> first_seen(const EyeSpace& eye, const PictureRay& ray,
         const int face = static_cast<int>(item);
         if (possibly_seen[face] == 0 || boxes.misses(scene.silhouettes().face_box(face)))
           return;
-        if (eye.front(face) != Sign::Zero && contains(eye, face, ray))
-          faces.push_back(face);
+        if (eye.front(face) != Sign::Zero) faces.push_back(face);
       });
+  std::ranges::sort(faces);
+  return faces;
+}
+
+std::vector<int> first_seen(const EyeSpace& eye, const PictureRay& ray,
+                            std::span<const std::uint8_t> possibly_seen) {
+  std::vector<int> faces = faces_near(eye, ray.at, possibly_seen);
+  std::erase_if(faces, [&](int face) { return !contains(eye, face, ray); });
   if (faces.size() < 2) return faces;
   std::vector<int> first;
-  Rational nearest, slope;
+  std::vector<Rational> nearest;  // at the point, and the slopes beside it
   for (const int face : faces) {
     const Nearness nearness(eye, face);
-    const Rational here = nearness.at(ray.at.exact());
-    const Rational beside = nearness.at(ray.beside);
-    int order = first.empty() ? 1 : (here - nearest).sign();
-    if (order == 0) order = (beside - slope).sign();
-    if (order < 0) continue;
-    if (order > 0) first.clear();
+    std::vector<Rational> here{nearness.at(ray.at.exact())};
+    for (const ExactPoint& v : ray.beside) here.push_back(nearness.at(v));
+    if (!first.empty() && here < nearest) continue;
+    if (first.empty() || nearest < here) first.clear();
     first.push_back(face);
-    nearest = here;
-    slope = beside;
+    nearest = std::move(here);
   }
-  std::ranges::sort(first);
   return first;
 }
 

@@ -6,24 +6,82 @@
 
 namespace sightline::internal {
 
-LineViewer::LineViewer(const EyeSpace& eye, std::span<const std::uint8_t> possibly_seen)
-    : eye_(&eye), possibly_seen_(possibly_seen) {}
+LineViewer::LineViewer(const EyeSpace& eye, const EyeStar& star,
+                       std::span<const std::uint8_t> possibly_seen)
+    : eye_(&eye), star_(&star), possibly_seen_(possibly_seen) {}
+
+void LineViewer::cover(int line, const LineCuts& cuts) {
+  find_faces(line);
+  covers_.clear();
+  for (const int face : faces_) {
+    if (auto own = own_side(line, face)) {
+      covers_.push_back(*own);
+    } else if (auto other = overlap(line, face, cuts)) {
+      covers_.push_back(*other);
+    }
+  }
+}
 
 void LineViewer::view(int line, std::vector<LinePiece>& pieces) {
   if (eye_->end_on(line)) return;
   const LineCuts cuts(*eye_, line);
-  find_faces(line);
-  covers_.clear();
-  hidden_ = false;
-  for (const int face : faces_) {
-    if (auto cover = own_side(line, face)) {
-      covers_.push_back(*cover);
-    } else if (auto other = overlap(line, face, cuts)) {
-      covers_.push_back(*other);
+  cover(line, cuts);
+  const Scan scan = scan_covers(line, cuts);
+  const std::size_t first = pieces.size();
+  for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
+    auto next = piece(line, scan, i);
+    if (!next) continue;
+    if (pieces.size() > first && pieces.back().left == next->left &&
+        pieces.back().right == next->right &&
+        cuts.compare(pieces.back().to, next->from) == 0) {
+      pieces.back().to = next->to;
+    } else {
+      pieces.push_back(std::move(*next));
     }
-    if (hidden_) return;
   }
-  scan(line, cuts, pieces);
+}
+
+// The piece between two neighbouring positions; nullopt where nothing begins or ends.
+std::optional<LinePiece> LineViewer::piece(int line, const Scan& scan,
+                                           std::size_t i) const {
+  const std::array<bool, 2> blocked =
+      scan.blocked.empty() ? std::array{false, false} : scan.blocked[i];
+  const auto& hidden = scan.hidden[i];
+  if (blocked[0] && blocked[1]) return std::nullopt;
+  const bool bounds_sight = blocked[0] || blocked[1];
+  if (bounds_sight && !star_->bounds(line)) return std::nullopt;
+  // Where a nearer face ends along the line, its own side is the piece.
+  if (!bounds_sight && (hidden[0] > 0 || hidden[1] > 0 || scan.containing[i].empty()))
+    return std::nullopt;
+  std::vector<int> left, right;
+  for (const Cover* c : scan.containing[i]) {
+    if (c->left && !blocked[0] && hidden[0] == 0) left.push_back(c->face);
+    if (c->right && !blocked[1] && hidden[1] == 0) right.push_back(c->face);
+  }
+  LinePiece piece{line, scan.at[i], scan.at[i + 1], nearest(left, line, true),
+                  nearest(right, line, false)};
+  piece.left.blocked = blocked[0];
+  piece.right.blocked = blocked[1];
+  if (piece.left == piece.right) return std::nullopt;
+  return piece;
+}
+
+std::optional<std::array<LineCut, 2>> LineViewer::part_in_sight(int line) {
+  if (eye_->end_on(line)) return std::nullopt;
+  const LineCuts cuts(*eye_, line);
+  cover(line, cuts);
+  const Scan scan = scan_covers(line, cuts);
+  for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
+    if (scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0)
+      return std::array{scan.at[i], scan.at[i + 1]};
+  }
+  return std::nullopt;
+}
+
+// A corner that is seen on a line, but does not lie on it.
+void LineViewer::suspect_corner(int line, int corner) {
+  const auto [a, b] = eye_->scene().lines()[line].ends;
+  if (!eye_->scene().in_line(a, b, corner)) suspects_.push_back({corner, line, {}});
 }
 
 // Faces that sight may meet on its way to the line.
@@ -59,7 +117,7 @@ std::optional<LineViewer::Cover> LineViewer::own_side(int line, int face) const 
 }
 
 std::optional<LineViewer::Cover> LineViewer::overlap(int line, int face,
-                                                     const LineCuts& cuts) const {
+                                                     const LineCuts& cuts) {
   const auto [a, b] = eye_->scene().lines()[line].ends;
   const auto corners = eye_->scene().scene().face_points(face);
   const std::size_t n = corners.size();
@@ -79,6 +137,11 @@ std::optional<LineViewer::Cover> LineViewer::overlap(int line, int face,
     return std::nullopt;
   }
   cover.hides = before_a != Sign::Zero || before_b != Sign::Zero;
+  if (cover.hides) {
+    for (const int c : corners) {
+      if (eye_->orient(a, b, c) == Sign::Zero) suspect_corner(line, c);
+    }
+  }
 
   // The part of the line that is seen within the face, side by side.
   const auto later = [&](const LineCut& x, const LineCut& y) {
@@ -91,6 +154,9 @@ std::optional<LineViewer::Cover> LineViewer::overlap(int line, int face,
     const int own = eye_->scene().line_of_side(face, static_cast<int>(k));
     const Sign at_a = front ? eye_->orient(p, q, a) : eye_->orient(q, p, a);
     const Sign at_b = front ? eye_->orient(p, q, b) : eye_->orient(q, p, b);
+    const int line_there = own >= 0 ? own : line;
+    if (at_a == Sign::Zero && before_a == Sign::Negative) suspect_corner(line_there, a);
+    if (at_b == Sign::Zero && before_b == Sign::Negative) suspect_corner(line_there, b);
     if (at_a == Sign::Zero && at_b == Sign::Zero) continue;
     if (at_a != Sign::Positive && at_b != Sign::Positive) return std::nullopt;
     if (at_a != Sign::Negative && at_b != Sign::Negative) continue;
@@ -140,68 +206,75 @@ SeenBeside LineViewer::nearest(std::span<const int> faces, int line, bool left) 
   return seen;
 }
 
-void LineViewer::scan(int line, const LineCuts& cuts, std::vector<LinePiece>& pieces) {
-  // The positions at which anything begins or ends, in order, each once.
-  std::vector<LineCut> at{start_cut(), finish_cut()};
+LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
+  Scan scan;
+  scan.at = {start_cut(), finish_cut()};
   for (const Cover& c : covers_) {
-    if (c.from.kind != LineCut::Kind::Start) at.push_back(c.from);
-    if (c.to.kind != LineCut::Kind::Finish) at.push_back(c.to);
+    if (c.from.kind != LineCut::Kind::Start) scan.at.push_back(c.from);
+    if (c.to.kind != LineCut::Kind::Finish) scan.at.push_back(c.to);
   }
-  std::ranges::sort(
-      at, [&](const LineCut& x, const LineCut& y) { return cuts.compare(x, y) < 0; });
-  at.erase(std::unique(at.begin(), at.end(),
-                       [&](const LineCut& x, const LineCut& y) {
-                         return cuts.compare(x, y) == 0;
-                       }),
-           at.end());
+  // From an eye on a face, sight is blocked up to its plane.
+  const auto [a, b] = eye_->scene().lines()[line].ends;
+  for (const int face : star_->faces()) {
+    const Sign at_a = eye_->scene().plane_side(face, a);
+    if (at_a != Sign::Zero && eye_->scene().plane_side(face, b) == -at_a)
+      scan.at.push_back(cuts.at_plane(face));
+  }
+  const auto before = [&](const LineCut& x, const LineCut& y) {
+    return cuts.compare(x, y) < 0;
+  };
+  std::ranges::sort(scan.at, before);
+  const auto same = [&](const LineCut& x, const LineCut& y) {
+    if (cuts.compare(x, y) != 0) return false;
+    const bool one_line = x.kind == LineCut::Kind::Side && y.kind == x.kind &&
+                          eye_->scene().in_line(x.p, x.q, y.p) &&
+                          eye_->scene().in_line(x.p, x.q, y.q);
+    const bool sides = x.kind == LineCut::Kind::Side || y.kind == LineCut::Kind::Side;
+    if (sides && !one_line)
+      suspects_.push_back({-1, line, x.kind == LineCut::Kind::Side ? x : y});
+    return true;
+  };
+  scan.at.erase(std::unique(scan.at.begin(), scan.at.end(), same), scan.at.end());
   const auto rank = [&](const LineCut& cut) {
-    return std::ranges::lower_bound(at, cut,
-                                    [&](const LineCut& x, const LineCut& y) {
-                                      return cuts.compare(x, y) < 0;
-                                    }) -
-           at.begin();
+    return std::ranges::lower_bound(scan.at, cut, before) - scan.at.begin();
   };
 
-  // Between two neighbouring positions: how many faces hide the left, the right; and
-  // which contain the line.
-  const std::size_t n = at.size() - 1;
-  std::vector<std::array<int, 2>> hiding(n + 1);
-  std::vector<std::vector<const Cover*>> containing(n);
+  const std::size_t n = scan.at.size() - 1;
+  std::vector<std::array<int, 2>> begins(n + 1);
+  scan.containing.resize(n);
   for (const Cover& c : covers_) {
     const auto from = rank(c.from);
     const auto to = rank(c.to);
     if (!c.hides) {
-      for (auto i = from; i < to; ++i) containing[i].push_back(&c);
+      for (auto i = from; i < to; ++i) scan.containing[i].push_back(&c);
       continue;
     }
     for (int side = 0; side < 2; ++side) {
       if (!(side == 0 ? c.left : c.right)) continue;
-      ++hiding[from][side];
-      --hiding[to][side];
+      ++begins[from][side];
+      --begins[to][side];
     }
   }
-
-  const std::size_t first = pieces.size();
   std::array<int, 2> hidden{};
   for (std::size_t i = 0; i < n; ++i) {
-    for (int side = 0; side < 2; ++side) hidden[side] += hiding[i][side];
-    // Where a nearer face ends along the line, its own side is the piece.
-    if (hidden[0] > 0 || hidden[1] > 0 || containing[i].empty()) continue;
-    std::vector<int> left, right;
-    for (const Cover* c : containing[i]) {
-      if (c->left) left.push_back(c->face);
-      if (c->right) right.push_back(c->face);
-    }
-    LinePiece piece{line, at[i], at[i + 1], nearest(left, line, true),
-                    nearest(right, line, false)};
-    if (piece.left == piece.right) continue;
-    if (pieces.size() > first && pieces.back().left == piece.left &&
-        pieces.back().right == piece.right &&
-        cuts.compare(pieces.back().to, piece.from) == 0) {
-      pieces.back().to = piece.to;
-    } else {
-      pieces.push_back(std::move(piece));
-    }
+    for (int side = 0; side < 2; ++side) hidden[side] += begins[i][side];
+    scan.hidden.push_back(hidden);
+  }
+  if (!star_->faces().empty()) find_blocked(line, cuts, scan);
+  return scan;
+}
+
+void LineViewer::find_blocked(int line, const LineCuts& cuts, Scan& scan) const {
+  const ViewScene& scene = eye_->scene();
+  const auto [a, b] = scene.lines()[line].ends;
+  // Rays run against picture vectors.
+  const ExactPoint right = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
+  const ExactPoint left{-right[0], -right[1], -right[2]};
+  for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
+    const Rational middle = (cuts.exact(scan.at[i]) + cuts.exact(scan.at[i + 1])) / 2;
+    const ExactPoint way =
+        exact_difference(along(scene.exact(a), scene.exact(b), middle), eye_->eye());
+    scan.blocked.push_back({star_->blocked(way, left), star_->blocked(way, right)});
   }
 }
 

@@ -10,6 +10,7 @@
 
 #include "linespace/picture/eye_space.h"
 #include "linespace/picture/line_cut.h"
+#include "linespace/view/eye_star.h"
 
 namespace sightline::internal {
 
@@ -18,6 +19,8 @@ struct SeenBeside {
   /// Faces that are seen there and contain the piece: one, or several that coincide.
   /// Empty: what is seen lies behind the piece.
   std::vector<int> faces;
+  /// From an eye on the scene: sight on this side runs into material and sees nothing.
+  bool blocked = false;
   friend bool operator==(const SeenBeside&, const SeenBeside&) = default;
 };
 
@@ -28,15 +31,32 @@ struct LinePiece {
   SeenBeside left, right;  ///< going from `from` to `to`
 };
 
+/// Where, in the picture, something on the line may coincide with something nearer.
+struct Suspect {
+  int point;  ///< of the scene; -1: the position on the line
+  int line;
+  LineCut cut;
+};
+
 /// Finds the pieces of lines.  Keeps scratch: one for a thread.
 class LineViewer {
  public:
   /// Faces marked 0 in possibly_seen are certainly hidden and are not asked; the span
   /// must outlive this.
-  LineViewer(const EyeSpace& eye, std::span<const std::uint8_t> possibly_seen);
+  LineViewer(const EyeSpace& eye, const EyeStar& star,
+             std::span<const std::uint8_t> possibly_seen);
 
   /// Appends the pieces of a line to `pieces`, from its first end to its second.
   void view(int line, std::vector<LinePiece>& pieces);
+
+  /// Some part of the line that nothing nearer hides, at least on one side; it may still
+  /// bound nothing that is seen.
+  [[nodiscard]] std::optional<std::array<LineCut, 2>> part_in_sight(int line);
+
+  /// All accidents of corners and lines that views of the lines asked so far came across,
+  /// and perhaps others: every point where a corner is seen on a nearer or farther line,
+  /// or where two nearer lines cross on a farther one.
+  [[nodiscard]] std::span<const Suspect> suspects() const { return suspects_; }
 
  private:
   // A face as it lies over, or at, the line between two positions.
@@ -47,19 +67,33 @@ class LineViewer {
     bool hides;        // it is nearer than the line; else it contains the line
   };
 
+  // The positions on a line at which anything begins or ends, in order, each once; and
+  // between two of them how many faces hide its left and its right.
+  struct Scan {
+    std::vector<LineCut> at;
+    std::vector<std::array<int, 2>> hidden;
+    std::vector<std::vector<const Cover*>> containing;
+    std::vector<std::array<bool, 2>> blocked;  // empty for an eye off the scene
+  };
+
+  void cover(int line, const LineCuts& cuts);
+  [[nodiscard]] Scan scan_covers(int line, const LineCuts& cuts);
+  void find_blocked(int line, const LineCuts& cuts, Scan& scan) const;
+  [[nodiscard]] std::optional<LinePiece> piece(int line, const Scan& scan,
+                                               std::size_t i) const;
+  void suspect_corner(int line, int corner);
   void find_faces(int line);
   void add_cover(int line, int face);
   [[nodiscard]] std::optional<Cover> own_side(int line, int face) const;
-  [[nodiscard]] std::optional<Cover> overlap(int line, int face,
-                                             const LineCuts& cuts) const;
-  void scan(int line, const LineCuts& cuts, std::vector<LinePiece>& pieces);
+  [[nodiscard]] std::optional<Cover> overlap(int line, int face, const LineCuts& cuts);
   [[nodiscard]] SeenBeside nearest(std::span<const int> faces, int line, bool left) const;
 
   const EyeSpace* eye_;
+  const EyeStar* star_;
   std::span<const std::uint8_t> possibly_seen_;
   std::vector<int> faces_;
   std::vector<Cover> covers_;
-  bool hidden_;  // the whole line, by one face
+  std::vector<Suspect> suspects_;
 };
 
 }  // namespace sightline::internal

@@ -6,9 +6,11 @@
 #include "linespace/picture/view_scene.h"
 #include "linespace/view/line_view.h"
 #include "linespace/view/possibly_seen.h"
+#include "linespace/view/view_accidents.h"
 #include "linespace/view/view_graph.h"
 #include "linespace/view/view_map.h"
 #include "linespace/view/view_measures.h"
+#include "linespace/view/view_structure.h"
 #include "linespace/work/stage.h"
 
 namespace sightline {
@@ -57,24 +59,35 @@ PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) con
 
   const std::vector<std::uint8_t> seen = possibly_seen(space);
   std::vector<LinePiece> pieces;
-  LineViewer viewer(space, seen);
+  const EyeStar star(space);
+  LineViewer viewer(space, star, seen);
   const std::vector<int> lines = lines_to_ask(scene, seen);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     stage.at(i, lines.size());
     viewer.view(lines[i], pieces);
   }
-  const ViewGraph graph = join_pieces(space, pieces, seen);
+  const ViewGraph graph = join_pieces(space, star, pieces, seen);
   stage.check(0.8);
   ViewMap map = make_map(space, graph);
 
   PointView view;
   view.eye = eye;
-  view.place = EyePlace::Free;
+  view.place = star.place();
+  view.place_ids = star.ids();
   std::vector<bool> background;
   for (const MapRegion& r : map.regions) background.push_back(r.patches.empty());
   const ViewMeasures measures = measure(space, graph, map.region_of, background);
-  view.general = std::ranges::none_of(
-      map.vertices, [](const MapVertex& v) { return v.kind == MapVertexKind::Accident; });
+  view.accidents = find_accidents(space, viewer, seen);
+  if (!star.faces().empty()) {
+    const GeneratorKind kind = star.place() == EyePlace::Corner ? GeneratorKind::Vertex
+                               : star.place() == EyePlace::Edge ? GeneratorKind::Edge
+                                                                : GeneratorKind::Face;
+    Accident on_scene{AccidentKind::OnScene, {}};
+    for (const int id : star.ids()) on_scene.generators.push_back({kind, id});
+    view.accidents.push_back(std::move(on_scene));
+  }
+  view.general = view.accidents.empty();
+  if (view.general) view.structure = structure_of(scene, map);
   for (const ViewMeasures::OfFacet& f : measures.facets) {
     SeenFacet seen_facet{f.side / 2, f.side % 2 == 0, f.pieces, f.measure, std::nullopt};
     if (!space.is_direction() && view.general) seen_facet.gradient = f.gradient;

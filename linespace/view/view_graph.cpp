@@ -15,9 +15,10 @@ namespace {
 
 class GraphBuilder {
  public:
-  GraphBuilder(const EyeSpace& eye, const std::vector<LinePiece>& pieces,
+  GraphBuilder(const EyeSpace& eye, const EyeStar& star,
+               const std::vector<LinePiece>& pieces,
                std::span<const std::uint8_t> possibly_seen)
-      : eye_(&eye), pieces_(&pieces), possibly_seen_(possibly_seen) {}
+      : eye_(&eye), star_(&star), pieces_(&pieces), possibly_seen_(possibly_seen) {}
 
   ViewGraph build() {
     JoinedPieces joined = join_ends(*eye_, *pieces_);
@@ -48,11 +49,12 @@ class GraphBuilder {
                 bool to_the_end);
   void label_regions();
   [[nodiscard]] FacetSides label(const std::vector<int>& faces) const;
-  [[nodiscard]] const std::vector<int>& told_beside(int half_edge) const;
+  [[nodiscard]] const SeenBeside& told_beside(int half_edge) const;
   [[nodiscard]] PicturePoint middle(int edge) const;
   [[nodiscard]] PicturePoint far_end(int half_edge) const;
 
   const EyeSpace* eye_;
+  const EyeStar* star_;
   const std::vector<LinePiece>* pieces_;
   std::span<const std::uint8_t> possibly_seen_;
   ViewGraph graph_;
@@ -262,9 +264,9 @@ bool GraphBuilder::try_link(int edge, const PictureTree& tree, const PicturePoin
 }
 
 // Faces that the half-edge's piece tells of its left; empty when that lies behind it.
-const std::vector<int>& GraphBuilder::told_beside(int half_edge) const {
+const SeenBeside& GraphBuilder::told_beside(int half_edge) const {
   const LinePiece& piece = (*pieces_)[piece_of_[half_edge / 2]];
-  return half_edge % 2 == 0 ? piece.left.faces : piece.right.faces;
+  return half_edge % 2 == 0 ? piece.left : piece.right;
 }
 
 FacetSides GraphBuilder::label(const std::vector<int>& faces) const {
@@ -292,9 +294,9 @@ void GraphBuilder::label_regions() {
       graph_.regions.emplace_back();
     }
     graph_.region[h] = region;
-    const auto& faces = told_beside(static_cast<int>(h));
-    if (faces.empty()) continue;
-    FacetSides sides = label(faces);
+    const SeenBeside& told = told_beside(static_cast<int>(h));
+    if (told.faces.empty() && !told.blocked) continue;
+    FacetSides sides = told.blocked ? FacetSides{kNoSight} : label(told.faces);
     if (known[region] == 0) {
       known[region] = 1;
       graph_.regions[region] = std::move(sides);
@@ -308,16 +310,22 @@ void GraphBuilder::label_regions() {
     const auto [a, b] = eye_->scene().lines()[graph_.edges[h / 2].line].ends;
     ExactPoint left = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
     if (h % 2 == 1) left = {-left[0], -left[1], -left[2]};
-    graph_.regions[r] = label(first_seen(*eye_, {middle(h / 2), left}, possibly_seen_));
+    graph_.regions[r] = label(first_seen(*eye_, {middle(h / 2), {left}}, possibly_seen_));
   }
-  if (graph_.regions.empty()) graph_.regions.emplace_back();
+  if (!graph_.regions.empty()) return;
+  // All is background; or all is material, where the eye lies on one object within
+  // another.
+  const ExactPoint some_way{Rational(0.61803), Rational(-0.31831), Rational(0.57722)};
+  graph_.regions.push_back(star_->blocked(some_way, {}) ? FacetSides{kNoSight}
+                                                        : FacetSides{});
 }
 
 }  // namespace
 
-ViewGraph join_pieces(const EyeSpace& eye, const std::vector<LinePiece>& pieces,
+ViewGraph join_pieces(const EyeSpace& eye, const EyeStar& star,
+                      const std::vector<LinePiece>& pieces,
                       std::span<const std::uint8_t> possibly_seen) {
-  return GraphBuilder(eye, pieces, possibly_seen).build();
+  return GraphBuilder(eye, star, pieces, possibly_seen).build();
 }
 
 }  // namespace sightline::internal

@@ -14,8 +14,9 @@
 namespace sightline::internal {
 
 /// Facets seen in one region: 2 f for the front of facet f, 2 f + 1 for its back;
-/// ascending.  Empty: the background.
+/// ascending.  Empty: the background.  Only kNoSight: sight runs into material there.
 using FacetSides = std::vector<int>;
+inline constexpr int kNoSight = -1;
 
 /// Half-edge 2 e runs along edge e from its first end to its second, 2 e + 1 back.
 struct ViewGraph {
@@ -44,7 +45,7 @@ struct ViewGraph {
 };
 
 /// Joins pieces that LineViewer found.
-[[nodiscard]] ViewGraph join_pieces(const EyeSpace& eye,
+[[nodiscard]] ViewGraph join_pieces(const EyeSpace& eye, const EyeStar& star,
                                     const std::vector<LinePiece>& pieces,
                                     std::span<const std::uint8_t> possibly_seen);
 

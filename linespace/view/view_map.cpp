@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "linespace/picture/classes.h"
 
@@ -39,9 +40,11 @@ class MapMaker {
   [[nodiscard]] bool share_object(int edge) const;
   [[nodiscard]] ExactPoint exact_place(int line, int point) const;
   [[nodiscard]] int corner_on(int line, int point) const;
+  [[nodiscard]] bool ends_at(int line, int point) const;
   [[nodiscard]] Point place(int line, int point) const;
   [[nodiscard]] bool meet_at(int line, int other, int point) const;
-  [[nodiscard]] MapVertex vertex(int point, std::span<const int> leaving) const;
+  [[nodiscard]] MapVertex vertex(int point, std::span<const int> leaving,
+                                 std::array<int, 2>& lines) const;
 
   const EyeSpace* eye_;
   const ViewGraph* graph_;
@@ -54,7 +57,8 @@ class MapMaker {
 std::vector<int> MapMaker::patches(int region) const {
   std::vector<int> found;
   for (const int side : graph_->regions[region]) {
-    found.push_back(eye_->scene().patch(side / 2, side % 2 == 0));
+    found.push_back(side == kNoSight ? kNoSight
+                                     : eye_->scene().patch(side / 2, side % 2 == 0));
   }
   std::ranges::sort(found);
   found.erase(std::ranges::unique(found).begin(), found.end());
@@ -75,6 +79,7 @@ void MapMaker::join_regions() {
   }
   map_.region_of.assign(n, -1);
   for (int r = 0; r < static_cast<int>(n); ++r) {
+    if (shown[r] == std::vector{kNoSight}) continue;
     int& number = map_.region_of[classes.root(r)];
     if (number < 0) {
       number = static_cast<int>(map_.regions.size());
@@ -197,6 +202,7 @@ bool MapMaker::share_object(int edge) const {
   const auto& facets = eye_->scene().scene().facets();
   for (const int x : graph_->regions[graph_->left(edge)]) {
     for (const int y : graph_->regions[graph_->right(edge)]) {
+      if (x == kNoSight || y == kNoSight) continue;
       if (facets[x / 2].object == facets[y / 2].object) return true;
     }
   }
@@ -261,6 +267,13 @@ bool MapMaker::meet_at(int line, int other, int point) const {
   return orient3d(s.point(a), s.point(b), s.point(c), s.point(d)) == Sign::Zero;
 }
 
+bool MapMaker::ends_at(int line, int point) const {
+  return corner_on(line, point) >= 0 ||
+         std::ranges::any_of(eye_->scene().lines()[line].ends, [&](int end) {
+           return same_point(PicturePoint(*eye_, end), graph_->points[point]);
+         });
+}
+
 // The corner of the scene that lies on the line where it passes this point; -1 if none.
 int MapMaker::corner_on(int line, int point) const {
   const ViewScene& scene = eye_->scene();
@@ -272,7 +285,8 @@ int MapMaker::corner_on(int line, int point) const {
   return -1;
 }
 
-MapVertex MapMaker::vertex(int point, std::span<const int> leaving) const {
+MapVertex MapMaker::vertex(int point, std::span<const int> leaving,
+                           std::array<int, 2>& lines) const {
   MapVertex v{};
   v.kind = MapVertexKind::Accident;
   v.corner = -1;
@@ -293,15 +307,19 @@ MapVertex MapMaker::vertex(int point, std::span<const int> leaving) const {
   if (meeting.size() == 1) {
     v.corner = corner_on(line(leaving.front()), point);
     v.kind = v.corner >= 0 ? MapVertexKind::Corner : MapVertexKind::Touch;
+    std::set<int> whole;
+    for (const int h : leaving) whole.insert(eye_->scene().whole_line(line(h)));
+    lines = {*whole.begin(), *std::next(whole.begin(), whole.size() > 1 ? 1 : 0)};
   } else if (meeting.size() == 2) {
     // A nearer line that goes straight on, and a farther one that ends behind it.
     for (int i = 0; i < 2; ++i) {
       const auto &near = meeting[i], &far = meeting[1 - i];
       if (near.size() != 2 || far.size() != 1) continue;
-      if (corner_on(line(far.front()), point) >= 0) continue;
+      if (ends_at(line(far.front()), point)) continue;
       if (!eye_->scene().on_one_line(line(near[0]), line(near[1]))) continue;
       v.kind = MapVertexKind::T;
-      v.near = eye_->scene().lines()[std::min(line(near[0]), line(near[1]))].name;
+      lines = {std::min(line(near[0]), line(near[1])), line(far.front())};
+      v.near = eye_->scene().lines()[lines[0]].name;
       v.far = eye_->scene().lines()[line(far.front())].name;
     }
   }
@@ -316,7 +334,8 @@ void MapMaker::add_vertices() {
     for (const int p : e.ends) {
       if (number[p] >= 0) continue;
       number[p] = static_cast<int>(map_.vertices.size());
-      map_.vertices.push_back(vertex(p, leaving_[p]));
+      auto& lines = map_.lines_of_vertex.emplace_back(std::array{0, 0});
+      map_.vertices.push_back(vertex(p, leaving_[p], lines));
       map_.point_of_vertex.push_back(p);
     }
   }
@@ -340,7 +359,8 @@ void MapMaker::add_boundaries() {
       x = graph_->next[x];
       while (seam_[x / 2] != 0) x = graph_->next[x ^ 1];
     }
-    map_.regions[map_.region_of[graph_->region[h]]].boundary.push_back(std::move(walk));
+    const int region = map_.region_of[graph_->region[h]];
+    if (region >= 0) map_.regions[region].boundary.push_back(std::move(walk));
   }
 }
 

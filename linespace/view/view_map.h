@@ -13,10 +13,14 @@ struct ViewMap {
   std::vector<MapEdge> edges;
   std::vector<MapRegion> regions;  ///< without their measures
   int components = 0, background_pieces = 0, seams = 0;
-  /// Of regions of the graph: the map's region they are a part of.
+  /// Of regions of the graph: the map's region they are a part of; -1 where sight runs
+  /// into material.
   std::vector<int> region_of;
-  /// Of vertices and edges of the map: their point, and their first line.
-  std::vector<int> point_of_vertex, line_of_edge;
+  /// Of vertices of the map: their point in the graph, and lines that end or cross there:
+  /// of a T the near one and the far one; else of the smallest numbers.
+  std::vector<int> point_of_vertex;
+  std::vector<std::array<int, 2>> lines_of_vertex;
+  std::vector<int> line_of_edge;  ///< whose name the edge has
 };
 
 [[nodiscard]] ViewMap make_map(const EyeSpace& eye, const ViewGraph& graph);

@@ -101,7 +101,9 @@ class Measurer {
 std::map<int, int> count_pieces(const ViewGraph& graph) {
   std::vector<std::pair<int, int>> parts;  // facet side, region
   for (int r = 0; r < static_cast<int>(graph.regions.size()); ++r) {
-    for (const int side : graph.regions[r]) parts.emplace_back(side, r);
+    for (const int side : graph.regions[r]) {
+      if (side != kNoSight) parts.emplace_back(side, r);
+    }
   }
   std::ranges::sort(parts);
   const auto number = [&](int side, int region) {
@@ -115,7 +117,8 @@ std::map<int, int> count_pieces(const ViewGraph& graph) {
     const int left = graph.left(e), right = graph.right(e);
     if (left == right) continue;
     for (const int side : graph.regions[left]) {
-      if (!std::ranges::binary_search(graph.regions[right], side)) continue;
+      if (side == kNoSight || !std::ranges::binary_search(graph.regions[right], side))
+        continue;
       if (classes.join(number(side, left), number(side, right))) --pieces[side];
     }
   }
@@ -132,10 +135,11 @@ ViewMeasures measure(const EyeSpace& eye, const ViewGraph& graph,
   std::vector<Sum> regions(background.size());
   // The background may reach round the eye: no point of it will do for a reference.
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    if (background[r]) regions[r].reference = LongEigen(0.36L, -0.48L, 0.8L);
+    if (background[r] && !eye.is_direction()) regions[r].reference = LongEigen(0.36L, -0.48L, 0.8L);
   }
   for (int h = 0; h < static_cast<int>(graph.region.size()); ++h) {
     const int here = graph.region[h], there = graph.region[h ^ 1];
+    if (region_of[here] < 0) continue;
     if (region_of[here] != region_of[there]) measurer.add(regions[region_of[here]], h);
     for (const int side : graph.regions[here]) {
       if (std::ranges::binary_search(graph.regions[there], side)) continue;
@@ -162,7 +166,8 @@ ViewMeasures measure(const EyeSpace& eye, const ViewGraph& graph,
   if (eye.is_direction()) return measures;
   // Sums tell solid angles up to whole spheres.
   constexpr double kSphere = 4 * std::numbers::pi;
-  const bool only_one = std::ranges::count(background, true) == 1;
+  const bool only_one = std::ranges::count(background, true) == 1 &&
+                        std::ranges::none_of(region_of, [](int r) { return r < 0; });
   for (std::size_t r = 0; r < regions.size(); ++r) {
     if (!background[r]) continue;
     const double value = measurer.value(regions[r]);

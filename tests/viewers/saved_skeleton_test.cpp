@@ -8,7 +8,7 @@
 #include "linespace/mesh_io.h"
 #include "skeleton/build.h"
 #include "tests/support/shell.h"
-#include "viewers/checksum.h"
+#include "linespace/checksum.h"
 #include "viewers/skeleton_file.h"
 
 namespace {
@@ -20,7 +20,7 @@ using sightline::PolygonSoup;
 using sightline::Scene;
 using sightline::test::file_contents;
 using sightline::viewers::check_fits;
-using sightline::viewers::Checksum;
+using sightline::Checksum;
 using sightline::viewers::fingerprint;
 using sightline::viewers::read_skeleton_json;
 using sightline::viewers::StoredSkeleton;

@@ -9,7 +9,7 @@
 
 #include "linespace/files/input_file.h"
 #include "linespace/work/stage.h"
-#include "viewers/checksum.h"
+#include "linespace/checksum.h"
 #include "viewers/drawing.h"
 #include "viewers/far_ends.h"
 #include "viewers/files/json_parse.h"

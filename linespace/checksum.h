@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-namespace sightline::viewers {
+namespace sightline {
 
 /// 128 bits of a sequence of bytes.  Any change within eight bytes that follow each other
 /// at a multiple of eight changes it; other changes keep it by chance only, one in 2^128.
@@ -32,4 +32,4 @@ class Checksum {
   std::uint64_t count_ = 0;    // bytes added
 };
 
-}  // namespace sightline::viewers
+}  // namespace sightline

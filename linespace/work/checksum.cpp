@@ -1,10 +1,10 @@
-#include "viewers/checksum.h"
-
-#include <fmt/format.h>
+#include "linespace/checksum.h"
 
 #include <bit>
+#include <iomanip>
+#include <sstream>
 
-namespace sightline::viewers {
+namespace sightline {
 namespace {
 
 // Odd factors, so that multiplying by them can be undone: states that differ stay
@@ -52,7 +52,10 @@ std::string Checksum::text() const {
   end.mix(pending_);
   end.mix(count_);
   const std::uint64_t a = scattered(end.state_[0] ^ std::rotl(end.state_[1], 17));
-  return fmt::format("{:016x}{:016x}", a, scattered(end.state_[1] + a));
+  std::ostringstream out;
+  out << std::hex << std::setfill('0') << std::setw(16) << a << std::setw(16)
+      << scattered(end.state_[1] + a);
+  return out.str();
 }
 
-}  // namespace sightline::viewers
+}  // namespace sightline

@@ -1,0 +1,324 @@
+#include "linespace/view/view_accidents.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "linespace/view/first_seen.h"
+
+namespace sightline::internal {
+namespace {
+
+// A line of the scene that passes a point of the picture, as seen there.
+struct Passing {
+  int line;
+  Rational nearness;
+  bool ahead, behind;  // it goes on towards its second end, its first end
+};
+
+// What passes one point of space: lines, and the corner that it may be.
+struct Group {
+  Rational nearness;
+  std::vector<Passing> lines;
+};
+
+class PointInspector {
+ public:
+  PointInspector(const EyeSpace& eye, std::span<const std::uint8_t> possibly_seen,
+                 PicturePoint at)
+      : eye_(&eye), possibly_seen_(possibly_seen), at_(std::move(at)) {}
+
+  std::optional<Accident> inspect();
+
+ private:
+  void find_lines();
+  void add_line(int line);
+  void leave_out_hidden();
+  void leave_out_seams();
+  [[nodiscard]] bool straight(const Group& group) const;
+  [[nodiscard]] int corner(const Group& group) const;
+  [[nodiscard]] std::vector<ExactPoint> ways(const Passing& p) const;
+  [[nodiscard]] Accident name() const;
+
+  const EyeSpace* eye_;
+  std::span<const std::uint8_t> possibly_seen_;
+  PicturePoint at_;
+  std::vector<int> faces_;  // with the point in their closed picture
+  std::vector<Group> groups_;
+};
+
+// The vector along which a passing line leaves the point, on either way on which it does.
+std::vector<ExactPoint> PointInspector::ways(const Passing& p) const {
+  const auto [a, b] = eye_->scene().lines()[p.line].ends;
+  std::vector<ExactPoint> found;
+  if (p.ahead) found.push_back(eye_->exact_vector(b));
+  if (p.behind) found.push_back(eye_->exact_vector(a));
+  return found;
+}
+
+void PointInspector::add_line(int line) {
+  const auto [a, b] = eye_->scene().lines()[line].ends;
+  if (eye_->end_on(line)) return;
+  const PicturePoint p(*eye_, a), q(*eye_, b);
+  if (orient(p, q, at_) != Sign::Zero) return;
+  // w = s u + t v, where m and n are t and s times u x v.
+  const ExactPoint &u = p.exact(), &v = q.exact(), &w = at_.exact();
+  const ExactPoint whole = exact_cross(u, v), m = exact_cross(u, w),
+                   n = exact_cross(w, v);
+  int i = 0;
+  while (i < 2 && whole[i] == 0) ++i;
+  const Rational t = m[i] / whole[i], s = n[i] / whole[i];
+  if (s < 0 || t < 0) return;
+  const Rational nearness = s * eye_->exact_height(a) + t * eye_->exact_height(b);
+  auto group = std::ranges::find(groups_, nearness, &Group::nearness);
+  if (group == groups_.end()) group = groups_.insert(group, Group{nearness, {}});
+  if (std::ranges::find(group->lines, line, &Passing::line) == group->lines.end())
+    group->lines.push_back({line, nearness, s > 0, t > 0});
+}
+
+void PointInspector::find_lines() {
+  for (const int face : faces_near(*eye_, at_, possibly_seen_)) {
+    const auto corners = eye_->scene().scene().face_points(face);
+    const Sign front = eye_->front(face);
+    bool within = true;
+    for (std::size_t k = 0; k < corners.size() && within; ++k) {
+      within = orient(PicturePoint(*eye_, corners[k]),
+                      PicturePoint(*eye_, corners[(k + 1) % corners.size()]), at_) *
+                   front !=
+               Sign::Negative;
+    }
+    if (!within) continue;
+    faces_.push_back(face);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const int line = eye_->scene().line_of_side(face, static_cast<int>(k));
+      if (line >= 0) add_line(line);
+    }
+    for (const int line : eye_->scene().crossings_of(face)) add_line(line);
+  }
+}
+
+// Of what is farther than all that is seen around the point, no eye near by sees
+// anything.
+void PointInspector::leave_out_hidden() {
+  std::vector<PictureRay> rays;
+  for (const Group& g : groups_) {
+    for (const Passing& p : g.lines) {
+      const auto [a, b] = eye_->scene().lines()[p.line].ends;
+      const ExactPoint n = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
+      for (const ExactPoint& way : ways(p)) {
+        rays.push_back({at_, {way, n}});
+        rays.push_back({at_, {way, {-n[0], -n[1], -n[2]}}});
+      }
+    }
+  }
+  std::optional<Rational> farthest;
+  for (const PictureRay& ray : rays) {
+    const auto seen = first_seen(*eye_, ray, possibly_seen_);
+    if (seen.empty()) return;
+    const Rational here = Nearness(*eye_, seen.front()).at(at_.exact());
+    if (!farthest || here < *farthest) farthest = here;
+  }
+  if (farthest)
+    std::erase_if(groups_, [&](const Group& g) { return g.nearness < *farthest; });
+}
+
+// Lines between faces of one patch, which cover all around the point, show nothing.
+void PointInspector::leave_out_seams() {
+  const auto only_seams = [&](const Group& g) {
+    std::vector<int> faces;
+    for (const int f : faces_) {
+      if (Nearness(*eye_, f).at(at_.exact()) == g.nearness) faces.push_back(f);
+    }
+    const auto patch = [&](int f) {
+      return eye_->scene().patch(eye_->scene().scene().faces()[f].facet,
+                                 eye_->front(f) == Sign::Positive);
+    };
+    for (const int f : faces) {
+      if (patch(f) != patch(faces.front())) return false;
+    }
+    for (const Passing& p : g.lines) {
+      const auto [a, b] = eye_->scene().lines()[p.line].ends;
+      const ExactPoint n = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
+      for (const ExactPoint& way : ways(p)) {
+        for (const ExactPoint& side : {n, ExactPoint{-n[0], -n[1], -n[2]}}) {
+          if (std::ranges::none_of(faces, [&](int f) {
+                return contains(*eye_, f, {at_, {way, side}});
+              })) {
+            return false;
+          }
+        }
+      }
+    }
+    return true;
+  };
+  std::erase_if(groups_, only_seams);
+}
+
+// One line of space that goes straight on.
+bool PointInspector::straight(const Group& g) const {
+  const ViewScene& scene = eye_->scene();
+  const auto [a, b] = scene.lines()[g.lines.front().line].ends;
+  std::array<bool, 2> on{};
+  for (const Passing& p : g.lines) {
+    if (!scene.on_one_line(g.lines.front().line, p.line)) return false;
+    const auto [c, d] = scene.lines()[p.line].ends;
+    const ExactPoint u = exact_difference(scene.exact(b), scene.exact(a));
+    const ExactPoint v = exact_difference(scene.exact(d), scene.exact(c));
+    const bool same = exact_dot(u, v) > 0;
+    on[same ? 0 : 1] |= p.ahead;
+    on[same ? 1 : 0] |= p.behind;
+  }
+  return on[0] && on[1];
+}
+
+int PointInspector::corner(const Group& g) const {
+  for (const Passing& p : g.lines) {
+    const auto [a, b] = eye_->scene().lines()[p.line].ends;
+    const int end = !p.ahead ? b : !p.behind ? a : -1;
+    if (end >= 0 && !eye_->scene().is_constructed(end)) return end;
+  }
+  return -1;
+}
+
+Accident PointInspector::name() const {
+  Accident found{};
+  int corners = 0;
+  for (const Group& g : groups_) {
+    const bool simple = straight(g);
+    const int point = simple ? -1 : corner(g);
+    corners += simple ? 0 : 1;
+    if (point >= 0) {
+      found.generators.push_back({GeneratorKind::Vertex, point});
+      continue;
+    }
+    for (const Passing& p : g.lines) {
+      const MapLine& line = eye_->scene().lines()[p.line].name;
+      if (line.edge >= 0) {
+        found.generators.push_back({GeneratorKind::Edge, line.edge});
+      } else {
+        for (const int f : line.facets)
+          found.generators.push_back({GeneratorKind::Face, f});
+      }
+    }
+  }
+  std::ranges::sort(found.generators);
+  found.generators.erase(std::ranges::unique(found.generators).begin(),
+                         found.generators.end());
+  found.kind = corners > 1          ? AccidentKind::CornerOnCorner
+               : corners == 1       ? AccidentKind::CornerOnEdge
+               : groups_.size() > 2 ? AccidentKind::ThreeEdges
+                                    : AccidentKind::AlongEdge;
+  return found;
+}
+
+std::optional<Accident> PointInspector::inspect() {
+  find_lines();
+  if (groups_.size() < 2) return std::nullopt;
+  leave_out_hidden();
+  leave_out_seams();
+  if (groups_.size() < 2) return std::nullopt;
+  if (groups_.size() == 2 && straight(groups_[0]) && straight(groups_[1])) {
+    const int line = groups_[0].lines.front().line;
+    const auto [a, b] = eye_->scene().lines()[line].ends;
+    const auto [c, d] = eye_->scene().lines()[groups_[1].lines.front().line].ends;
+    const bool along =
+        eye_->orient(a, b, c) == Sign::Zero && eye_->orient(a, b, d) == Sign::Zero;
+    if (!along) return std::nullopt;  // one passes behind the other
+  }
+  return name();
+}
+
+// Outside material, just beside the middle of a part of a line, over a facet's face.
+bool exposed(const EyeSpace& eye, int face, int line,
+             const std::array<LineCut, 2>& part) {
+  const ViewScene& scene = eye.scene();
+  const LineCuts cuts(eye, line);
+  const auto [a, b] = scene.lines()[line].ends;
+  const Rational middle = (cuts.exact(part[0]) + cuts.exact(part[1])) / 2;
+  const ExactPoint on = along(scene.exact(a), scene.exact(b), middle);
+  ExactPoint inside{};
+  const auto corners = scene.scene().face_points(face);
+  for (const int c : corners) {
+    for (int i = 0; i < 3; ++i) inside[i] += scene.exact(c)[i];
+  }
+  for (Rational& x : inside) x /= static_cast<int>(corners.size());
+  // A 2^-40th of the way into the face, and that much squared off it.
+  const Rational step(0x1p-40);
+  const ExactPoint beside = along(on, inside, step);
+  const auto t = plane_points(scene.scene(), face);
+  const ExactPoint normal =
+      exact_cross(exact_difference(scene.exact(t[1]), scene.exact(t[0])),
+                  exact_difference(scene.exact(t[2]), scene.exact(t[0])));
+  Rational largest = abs(normal[0]) + abs(normal[1]) + abs(normal[2]);
+  const ExactPoint way = exact_difference(inside, on);
+  const Rational size = abs(way[0]) + abs(way[1]) + abs(way[2]);
+  for (const int sign : {1, -1}) {
+    const Rational off = sign * step * step * size / largest;
+    ExactPoint p = beside;
+    for (int i = 0; i < 3; ++i) p[i] += off * normal[i];
+    if (!scene.silhouettes().in_material(p)) return true;
+  }
+  return false;
+}
+
+void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
+                  std::span<const std::uint8_t> possibly_seen,
+                  std::vector<Accident>& accidents) {
+  const ViewScene& scene = eye.scene();
+  std::vector<int> ends;
+  for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
+    if (possibly_seen[f] == 0 || eye.front(f) != Sign::Zero) continue;
+    const int facet = scene.scene().faces()[f].facet;
+    for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
+      const int line = scene.line_of_side(f, k);
+      if (line < 0) continue;
+      if (eye.end_on(line)) {
+        ends.push_back(line);
+      } else if (const auto part = viewer.part_in_sight(line);
+                 part && exposed(eye, f, line, *part)) {
+        accidents.push_back({AccidentKind::EdgeOn, {{GeneratorKind::Face, facet}}});
+      }
+    }
+  }
+  // An edge seen end-on belongs to facets seen edge-on.
+  for (const int line : ends) {
+    const int edge = scene.lines()[line].name.edge;
+    if (edge < 0) continue;
+    const bool beside = std::ranges::any_of(
+        scene.scene().edges()[edge].sides, [&](const Edge::Side& side) {
+          const Generator facet{GeneratorKind::Face,
+                                scene.scene().faces()[side.face].facet};
+          return std::ranges::any_of(accidents, [&](const Accident& a) {
+            return a.kind == AccidentKind::EdgeOn && a.generators.front() == facet;
+          });
+        });
+    if (beside) accidents.push_back({AccidentKind::EndOn, {{GeneratorKind::Edge, edge}}});
+  }
+}
+
+}  // namespace
+
+std::vector<Accident> find_accidents(const EyeSpace& eye, LineViewer& viewer,
+                                     std::span<const std::uint8_t> possibly_seen) {
+  std::vector<Accident> found;
+  find_edge_on(eye, viewer, possibly_seen, found);
+  std::vector<PicturePoint> points;
+  for (const Suspect& s : viewer.suspects()) {
+    PicturePoint p =
+        s.point >= 0 ? PicturePoint(eye, s.point) : PicturePoint(eye, s.line, s.cut);
+    if (std::ranges::any_of(points,
+                            [&](const PicturePoint& q) { return same_point(p, q); })) {
+      continue;
+    }
+    points.push_back(std::move(p));
+  }
+  for (const PicturePoint& p : points) {
+    if (auto accident = PointInspector(eye, possibly_seen, p).inspect())
+      found.push_back(std::move(*accident));
+  }
+  std::ranges::sort(found);
+  found.erase(std::ranges::unique(found).begin(), found.end());
+  return found;
+}
+
+}  // namespace sightline::internal

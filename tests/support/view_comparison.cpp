@@ -1,0 +1,458 @@
+#include "tests/support/view_comparison.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <sstream>
+
+#include "tests/support/generators.h"
+#include "tests/support/naive_picture.h"
+
+namespace sightline::testing {
+namespace {
+
+const char* name(MapVertexKind kind) {
+  constexpr std::array kNames{"corner", "T", "touch", "accident"};
+  return kNames[static_cast<int>(kind)];
+}
+const char* name(MapEdgeKind kind) {
+  constexpr std::array kNames{"silhouette", "crease",  "valley",
+                              "boundary",   "contact", "crossing"};
+  return kNames[static_cast<int>(kind)];
+}
+
+std::string text(const std::vector<int>& numbers) {
+  std::string result("{");
+  for (const int n : numbers) result += std::to_string(n) + " ";
+  return result + "}";
+}
+std::string text(const Point& p) {
+  std::ostringstream out;
+  out.precision(12);
+  out << "(" << p[0] << ", " << p[1] << ", " << p[2] << ")";
+  return out.str();
+}
+Point rounded(const Vec3& v) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]),
+          static_cast<double>(v[2])};
+}
+std::string text(const NaiveLine& line) {
+  std::string result("edges ");
+  result += text(line.edges) + " crossing";
+  for (const auto& [f, g] : line.crossings) {
+    result += std::string(" ") + std::to_string(f) + "x" + std::to_string(g);
+  }
+  return result;
+}
+std::string text(const MapLine& line) {
+  return "edge " + std::to_string(line.edge) + " crossing " +
+         std::to_string(line.facets[0]) + "x" + std::to_string(line.facets[1]);
+}
+
+bool is_part_of(const MapLine& line, const NaiveLine& naive) {
+  if (line.edge < 0) return std::ranges::binary_search(naive.crossings, line.facets);
+  return std::ranges::binary_search(naive.edges, line.edge);
+}
+
+bool near(const Point& a, const Point& b) {
+  return (a - b).norm() <= 1e-9 * std::max({1.0, a.norm(), b.norm()});
+}
+bool near(std::optional<double> a, std::optional<double> b, double absolute) {
+  if (a.has_value() != b.has_value()) return false;
+  return !a || std::abs(*a - *b) <= std::max(1e-12 * std::abs(*b), absolute);
+}
+
+class Comparison {
+ public:
+  Comparison(const NaiveEye& eye, const NaiveView& naive, const PointView& view)
+      : eye_(eye), naive_(naive), view_(view) {}
+
+  std::vector<std::string> run() {
+    same("place", static_cast<int>(view_.place), static_cast<int>(naive_.place));
+    if (view_.place_ids != naive_.place_ids) {
+      tell("place_ids: " + text(view_.place_ids) + ", naive " + text(naive_.place_ids));
+    }
+    compare_facets();
+    if (naive_.place != EyePlace::Free && naive_.place != EyePlace::Inside) return found_;
+    same("components", view_.components, naive_.components);
+    same("background pieces", view_.background_pieces, naive_.background_pieces);
+    if (view_.seams != naive_.seams_between_edges)
+      same("seams", view_.seams, naive_.seams);
+    compare_vertices();
+    compare_edges();
+    compare_regions();
+    compare_boundaries();
+    return found_;
+  }
+
+ private:
+  void tell(const std::string& difference) { found_.push_back(difference); }
+  void same(const std::string& what, long view, long naive) {
+    if (view == naive) return;
+    tell(what + ": " + std::to_string(view) + ", naive " + std::to_string(naive));
+  }
+  [[nodiscard]] double absolute() const {
+    return eye_.kind == Viewpoint::Kind::Eye ? 1e-15 : 0;
+  }
+
+  void compare_facets() {
+    std::map<int, const NaiveFacet*> naive;
+    for (const NaiveFacet& f : naive_.facets) naive[f.facet] = &f;
+    for (const SeenFacet& f : view_.facets) {
+      const std::string facet = "facet " + std::to_string(f.facet);
+      const auto at = naive.find(f.facet);
+      if (at == naive.end()) {
+        tell(facet + ": not seen by the naive view");
+        continue;
+      }
+      same(facet + " front", f.front ? 1 : 0, at->second->front ? 1 : 0);
+      same(facet + " pieces", f.pieces, at->second->pieces);
+      if (!near(f.measure, at->second->measure, absolute())) {
+        std::ostringstream out;
+        out.precision(17);
+        out << facet << " measure: " << f.measure << ", naive " << at->second->measure;
+        tell(out.str());
+      }
+      naive.erase(at);
+    }
+    for (const auto& [facet, f] : naive) {
+      tell("facet " + std::to_string(facet) + ": seen by the naive view only, " +
+           std::to_string(f->measure));
+    }
+  }
+
+  /// Where MapVertex::at should be.
+  [[nodiscard]] Point in_picture(const NaiveVertex& v) const {
+    if (eye_.kind == Viewpoint::Kind::Eye) {
+      // Scaled before it is rounded: the eye may be very near.
+      const Vec3 way = v.in_space - eye_.at;
+      const Rational size =
+          std::max({Rational(abs(way[0])), Rational(abs(way[1])), Rational(abs(way[2]))});
+      return rounded(Rational(1 / size) * way).normalized();
+    }
+    const Rational share = dot(v.in_space, eye_.at) / dot(eye_.at, eye_.at);
+    return rounded(v.in_space - share * eye_.at);
+  }
+
+  [[nodiscard]] bool same_vertex(const MapVertex& v, const NaiveVertex& naive) const {
+    if (!near(v.at, in_picture(naive))) return false;
+    if (v.kind == MapVertexKind::Accident && naive.or_accident) return true;
+    if (v.kind == MapVertexKind::Touch && naive.or_touch) return true;
+    if (v.kind != naive.kind) return false;
+    if (v.kind == MapVertexKind::Corner) return v.corner == naive.corner;
+    if (v.kind != MapVertexKind::T) return true;
+    return is_part_of(v.near, naive.near) && is_part_of(v.far, naive.far);
+  }
+
+  void compare_vertices() {
+    std::vector<char> used(naive_.vertices.size(), 0);
+    partner_.assign(view_.vertices.size(), -1);
+    for (std::size_t i = 0; i < view_.vertices.size(); ++i) {
+      const MapVertex& v = view_.vertices[i];
+      for (std::size_t k = 0; k < used.size() && partner_[i] < 0; ++k) {
+        if (used[k] != 0 || !same_vertex(v, naive_.vertices[k])) continue;
+        used[k] = 1;
+        partner_[i] = static_cast<int>(k);
+      }
+      if (partner_[i] < 0) {
+        tell(std::string("vertex ") + name(v.kind) + " corner " +
+             std::to_string(v.corner) + " near " + text(v.near) + " far " + text(v.far) +
+             " at " + text(v.at) + ": the library's only");
+      }
+    }
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      const NaiveVertex& v = naive_.vertices[k];
+      if (used[k] != 0) continue;
+      tell(std::string("vertex ") + name(v.kind) + " corner " + std::to_string(v.corner) +
+           " near " + text(v.near) + " far " + text(v.far) + " at " +
+           text(in_picture(v)) + ": the naive one's only");
+    }
+  }
+
+  [[nodiscard]] bool same_edge(const MapEdge& e, const NaiveEdge& naive) const {
+    if (!is_part_of(e.line, naive.line)) return false;
+    const auto ends = [&](int first, int second, int left, int right) {
+      return near(e.segment[0], rounded(naive.in_space[first])) &&
+             near(e.segment[1], rounded(naive.in_space[second])) &&
+             partner_[e.ends[0]] == naive.ends[first] &&
+             partner_[e.ends[1]] == naive.ends[second] &&
+             view_.regions[e.left].facets == naive_.regions[left].facets &&
+             view_.regions[e.right].facets == naive_.regions[right].facets;
+    };
+    return ends(0, 1, naive.left, naive.right) || ends(1, 0, naive.right, naive.left);
+  }
+  [[nodiscard]] static bool same_kind(const MapEdge& e, const NaiveEdge& naive) {
+    if (naive.several || naive.kinds.empty()) return true;
+    return std::ranges::find(naive.kinds, e.kind) != naive.kinds.end();
+  }
+
+  void compare_edges() {
+    std::vector<char> used(naive_.edges.size(), 0);
+    for (const MapEdge& e : view_.edges) {
+      bool found = false;
+      for (std::size_t k = 0; k < used.size() && !found; ++k) {
+        if (used[k] != 0 || !same_edge(e, naive_.edges[k])) continue;
+        used[k] = 1;
+        found = true;
+        if (!same_kind(e, naive_.edges[k])) {
+          tell("edge " + text(e.line) + " kind: " + name(e.kind) + ", naive " +
+               name(naive_.edges[k].kinds[0]));
+        }
+      }
+      if (found) continue;
+      tell(std::string("edge ") + name(e.kind) + " " + text(e.line) + " from " +
+           text(e.segment[0]) + " to " + text(e.segment[1]) + " left " +
+           text(view_.regions[e.left].facets) + " right " +
+           text(view_.regions[e.right].facets) + ": the library's only");
+    }
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      const NaiveEdge& e = naive_.edges[k];
+      if (used[k] != 0) continue;
+      tell(std::string("edge ") + (e.kinds.empty() ? "flat" : name(e.kinds[0])) + " " +
+           text(e.line) + " from " + text(rounded(e.in_space[0])) + " to " +
+           text(rounded(e.in_space[1])) + " left " + text(naive_.regions[e.left].facets) +
+           " right " + text(naive_.regions[e.right].facets) + ": the naive one's only");
+    }
+  }
+
+  void compare_regions() {
+    std::vector<char> used(naive_.regions.size(), 0);
+    for (const MapRegion& r : view_.regions) {
+      bool found = false;
+      for (std::size_t k = 0; k < used.size() && !found; ++k) {
+        const NaiveRegion& naive = naive_.regions[k];
+        if (used[k] != 0 || r.facets != naive.facets) continue;
+        // The background's is what the others leave: not better than of all together.
+        const double slack = naive.facets.empty() && eye_.kind == Viewpoint::Kind::Eye
+                                 ? 1e-13
+                                 : absolute();
+        if (!near(r.measure, naive.measure, slack)) continue;
+        used[k] = 1;
+        found = true;
+      }
+      if (!found) {
+        tell("region " + text(r.facets) + " measure " +
+             (r.measure ? std::to_string(*r.measure) : "infinite") +
+             ": the library's only");
+      }
+    }
+    for (std::size_t k = 0; k < used.size(); ++k) {
+      const NaiveRegion& r = naive_.regions[k];
+      if (used[k] != 0) continue;
+      tell("region " + text(r.facets) + " measure " +
+           (r.measure ? std::to_string(*r.measure) : "infinite") +
+           ": the naive one's only");
+    }
+  }
+
+  /// Every side of every edge is once in the boundary of the region that is there.
+  void compare_boundaries() {
+    std::vector<int> walked(2 * view_.edges.size(), 0);
+    for (int r = 0; r < static_cast<int>(view_.regions.size()); ++r) {
+      for (const std::vector<int>& walk : view_.regions[r].boundary) {
+        for (std::size_t i = 0; i < walk.size(); ++i) {
+          const int here = walk[i], next = walk[(i + 1) % walk.size()];
+          const MapEdge& e = view_.edges[here / 2];
+          ++walked[here];
+          if ((here % 2 == 0 ? e.left : e.right) != r ||
+              e.ends[here % 2 == 0 ? 1 : 0] != view_.edges[next / 2].ends[next % 2]) {
+            tell("boundary of region " + std::to_string(r) + " is no walk around it");
+          }
+        }
+      }
+    }
+    for (std::size_t i = 0; i < walked.size(); ++i) {
+      if (walked[i] == 1) continue;
+      tell("side " + std::to_string(i) + " is in " + std::to_string(walked[i]) +
+           " boundaries");
+    }
+  }
+
+  const NaiveEye& eye_;
+  const NaiveView& naive_;
+  const PointView& view_;
+  std::vector<int> partner_;  ///< naive vertex of each vertex
+  std::vector<std::string> found_;
+};
+
+/// Without the polygons that are marked; without its group, if that is empty then.
+PolygonSoup without(const PolygonSoup& soup, const std::vector<char>& marked) {
+  PolygonSoup result;
+  result.vertices = soup.vertices;
+  std::vector<int> number(soup.polygons.size(), -1);
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    if (marked[f] != 0) continue;
+    number[f] = static_cast<int>(result.polygons.size());
+    result.polygons.push_back(soup.polygons[f]);
+  }
+  for (const PolygonSoup::Group& group : soup.groups) {
+    PolygonSoup::Group left{.name = group.name, .faces = {}};
+    for (const int f : group.faces) {
+      if (number[f] >= 0) left.faces.push_back(number[f]);
+    }
+    if (!left.faces.empty()) result.groups.push_back(std::move(left));
+  }
+  return result;
+}
+
+}  // namespace
+
+Viewpoint viewpoint_of(const NaiveEye& eye) {
+  // As fractions: decimal numbers would be rounded to doubles.
+  std::array<std::string, 3> coordinates;
+  for (int i = 0; i < 3; ++i) {
+    coordinates[i] =
+        Integer(numerator(eye.at[i])).str() + "/" + Integer(denominator(eye.at[i])).str();
+  }
+  return viewpoint(eye.kind, coordinates);
+}
+
+std::vector<std::string> differences(const NaiveEye& eye, const NaiveView& naive,
+                                     const PointView& view) {
+  return Comparison(eye, naive, view).run();
+}
+
+std::vector<std::string> view_differences(const PolygonSoup& soup, const NaiveEye& eye,
+                                          bool general) {
+  try {
+    const Scene scene(soup);
+    const NaiveViewer viewer(scene);
+    const PointView view = PointViewIndex(scene).view(viewpoint_of(eye));
+    std::vector<std::string> result = differences(eye, viewer.view(eye), view);
+    if (general && view.general != viewer.general(eye)) {
+      result.push_back(view.general ? "general, naive not"
+                                    : "not general, naive general");
+    }
+    return result;
+  } catch (const std::exception& error) {
+    return {std::string("exception: ") + error.what()};
+  }
+}
+
+PolygonSoup smallest_differing(const PolygonSoup& soup, const NaiveEye& eye,
+                               bool general) {
+  PolygonSoup best = soup;
+  const auto differs = [&](const PolygonSoup& s) {
+    return !s.polygons.empty() && !view_differences(s, eye, general).empty();
+  };
+  // Groups first: a solid without one face is a sheet, and another case.
+  for (std::size_t g = 0; g < best.groups.size();) {
+    std::vector<char> marked(best.polygons.size(), 0);
+    for (const int f : best.groups[g].faces) marked[f] = 1;
+    const PolygonSoup smaller = without(best, marked);
+    if (differs(smaller)) {
+      best = smaller;
+    } else {
+      ++g;
+    }
+  }
+  for (std::size_t f = 0; f < best.polygons.size();) {
+    std::vector<char> marked(best.polygons.size(), 0);
+    marked[f] = 1;
+    const PolygonSoup smaller = without(best, marked);
+    if (differs(smaller)) {
+      best = smaller;
+    } else {
+      ++f;
+    }
+  }
+  return best;
+}
+
+std::vector<std::string> structure_differences(const Scene& scene,
+                                               const std::vector<NaiveEye>& eyes) {
+  const NaiveViewer viewer(scene);
+  const PointViewIndex index(scene);
+  std::vector<std::string> result;
+  Random random(eyes.size());
+  for (const NaiveEye& eye : eyes) {
+    NaiveEye next = eye;
+    for (Rational& x : next.at) x += Rational(random.integer(-64, 64), 512);
+    if (eye.kind == Viewpoint::Kind::Direction && is_zero(next.at)) continue;
+    const PointView a = index.view(viewpoint_of(eye)), b = index.view(viewpoint_of(next));
+    if (!a.general || !b.general) continue;
+    const bool equal = a.structure == b.structure;
+    if (equal == (viewer.view(eye).structure == viewer.view(next).structure)) continue;
+    result.push_back(std::string(equal ? "equal" : "different") +
+                     " structures, naive otherwise: " + report({}, eye, {}) + "and " +
+                     report({}, next, {}));
+  }
+  return result;
+}
+
+namespace {
+
+bool lies_on(const Scene& scene, const NaiveEye& eye) {
+  if (eye.kind == Viewpoint::Kind::Direction) return false;
+  for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
+    if (face_holds(scene, f, eye.at)) return true;
+  }
+  return false;
+}
+
+/// The first difference without its numbers: what may be one fault has one.
+std::string signature(const std::string& difference) {
+  std::string result;
+  for (const char c : difference) {
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) result += c;
+  }
+  return result;
+}
+
+}  // namespace
+
+std::vector<std::string> compare_views(const ViewRun& run) {
+  std::vector<std::string> result;
+  std::uint64_t seed = run.seed;
+  std::map<std::string, int> told;
+  for (const ViewScene& each : view_scenes()) {
+    const Scene scene(each.soup);
+    const std::vector<NaiveEye> eyes = view_eyes(scene, seed++, run.eyes);
+    for (const NaiveEye& eye : eyes) {
+      if (!run.on_scene && lies_on(scene, eye)) continue;
+      if (view_differences(each.soup, eye, run.general).empty()) continue;
+      const PolygonSoup soup = smallest_differing(each.soup, eye, run.general);
+      const std::vector<std::string> found = view_differences(soup, eye, run.general);
+      if (++told[signature(found[0])] > 2) continue;
+      result.push_back(each.name + "\n" + report(soup, eye, found));
+      if (static_cast<int>(result.size()) >= run.most_reports) return result;
+    }
+    if (!run.general) continue;
+    for (const std::string& pair : structure_differences(scene, eyes)) {
+      result.push_back(each.name + " " + pair);
+    }
+  }
+  return result;
+}
+
+std::string report(const PolygonSoup& soup, const NaiveEye& eye,
+                   const std::vector<std::string>& differences) {
+  std::ostringstream out;
+  out.precision(17);
+  out << (eye.kind == Viewpoint::Kind::Eye ? "from " : "direction ") << eye.at[0] << ","
+      << eye.at[1] << "," << eye.at[2] << '\n';
+  for (const std::string& d : differences) out << "  " << d << '\n';
+  std::map<int, int> number;  // only vertices that are used
+  const auto write = [&](int f) {
+    std::ostringstream line;
+    for (const int v : soup.polygons[f]) {
+      const auto [at, fresh] = number.try_emplace(v, static_cast<int>(number.size()) + 1);
+      const Point& p = soup.vertices[v];
+      if (fresh) out << "v " << p[0] << ' ' << p[1] << ' ' << p[2] << '\n';
+      line << ' ' << at->second;
+    }
+    out << 'f' << line.str() << '\n';
+  };
+  for (const PolygonSoup::Group& group : soup.groups) {
+    out << "o " << group.name << '\n';
+    for (const int f : group.faces) write(f);
+  }
+  if (soup.groups.empty()) {
+    for (int f = 0; f < static_cast<int>(soup.polygons.size()); ++f) write(f);
+  }
+  return out.str();
+}
+
+}  // namespace sightline::testing

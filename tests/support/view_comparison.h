@@ -1,0 +1,53 @@
+// The library's exact view from a point against the naive one.
+
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "linespace/point_view.h"
+#include "tests/support/naive_view.h"
+#include "tests/support/view_scenes.h"
+
+namespace sightline::testing {
+
+/// The same eye, with nothing rounded.
+[[nodiscard]] Viewpoint viewpoint_of(const NaiveEye& eye);
+
+/// Everything in which the two answers differ, a line each.  The map is compared only for
+/// eyes that are free or inside; rounded positions to 1e-9 of their size.
+[[nodiscard]] std::vector<std::string> differences(const NaiveEye& eye,
+                                                   const NaiveView& naive,
+                                                   const PointView& view);
+
+/// Both views of the scene, compared; `general` too, at five times the cost, if asked.
+/// A std::logic_error or InvalidInput of either side is a difference.
+[[nodiscard]] std::vector<std::string> view_differences(const PolygonSoup& soup,
+                                                        const NaiveEye& eye,
+                                                        bool general);
+
+/// The scene with as many groups and polygons left out as may be, so that there still are
+/// differences.
+[[nodiscard]] PolygonSoup smallest_differing(const PolygonSoup& soup, const NaiveEye& eye,
+                                             bool general);
+
+/// Pairs of eyes near each other, of which one side says that the labelled structures are
+/// equal and the other that they are not; a line each.
+[[nodiscard]] std::vector<std::string> structure_differences(
+    const Scene& scene, const std::vector<NaiveEye>& eyes);
+
+struct ViewRun {
+  int eyes;              ///< a scene
+  std::uint64_t seed;    ///< another choice of eyes
+  bool general;          ///< compare `general` too, and structures
+  bool on_scene = true;  ///< eyes on facets, edges and corners too
+  int most_reports = 10;
+};
+/// Compares on all view_scenes(); reports of the smallest cases.
+[[nodiscard]] std::vector<std::string> compare_views(const ViewRun& run);
+
+/// Scene (as OBJ), eye and differences.
+[[nodiscard]] std::string report(const PolygonSoup& soup, const NaiveEye& eye,
+                                 const std::vector<std::string>& differences);
+
+}  // namespace sightline::testing
