@@ -93,12 +93,12 @@ LineStyle style_of(MapEdgeKind kind, std::size_t edges) {
   static constexpr LineStyle kStyles[] = {{{0.08F, 0.09F, 0.12F}, 2.4F},   // silhouette
                                           {{0.22F, 0.23F, 0.27F}, 1.2F},   // crease
                                           {{0.38F, 0.40F, 0.46F}, 1.2F},   // valley
-                                          {{0.16F, 0.47F, 0.55F}, 2.0F},   // boundary
-                                          {{0.52F, 0.28F, 0.74F}, 1.2F},   // contact
+                                          {{0.08F, 0.20F, 0.27F}, 2.0F},   // boundary
+                                          {{0.36F, 0.22F, 0.50F}, 1.2F},   // contact
                                           {{0.84F, 0.15F, 0.24F}, 1.4F}};  // crossing
   LineStyle style = kStyles[static_cast<int>(kind)];
-  // From 900 edges on the ink stays about the same, down to a quarter of the width.
-  const double thinner = 30 / std::sqrt(static_cast<double>(edges));
+  // From 400 edges on the ink stays about the same, down to a quarter of the width.
+  const double thinner = 20 / std::sqrt(static_cast<double>(edges));
   style.width *= static_cast<float>(std::clamp(thinner, 0.25, 1.0));
   return style;
 }
