@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "linespace/exact_position.h"
+#include "linespace/generator.h"
 #include "linespace/predicates.h"
 #include "linespace/scene.h"
 #include "skeleton/graph.h"
@@ -46,6 +47,12 @@ struct Cost {
 [[nodiscard]] Json points_json(const std::array<Point, 2>& points);
 /// Exactly: numbers, or "p/q" where no double is.
 [[nodiscard]] Json position_json(const ExactPosition& position);
+
+/// The numbers in the file of a facet's polygons, ascending.
+[[nodiscard]] std::vector<int> polygons_of(const Scene& scene, int facet);
+/// {"type", "id", ...}: a vertex with its coordinates, an edge with its ends, a facet with
+/// its polygons; and the names of its objects.
+[[nodiscard]] Json generator_json(const Scene& scene, const Generator& generator);
 
 /// Defects of a kind that info_json lists; "defect_counts" counts all.
 inline constexpr int kDefectsListed = 1000;

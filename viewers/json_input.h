@@ -36,11 +36,16 @@ class JsonInput {
   [[nodiscard]] std::vector<JsonInput> items() const;
   /// Three numbers that is_admissible accepts.
   [[nodiscard]] Point point() const;
+  /// Three coordinates, each a number or a string, as text; a number's text is the
+  /// shortest that reads as the same double.  What the strings say is not checked.
+  [[nodiscard]] std::array<std::string, 3> coordinates() const;
   /// An array of points, at least so many.
   [[nodiscard]] std::vector<Point> points(std::size_t least) const;
   /// An array of exactly two points, which differ.
   [[nodiscard]] std::array<Point, 2> two_points() const;
 
+  /// "FILE: segments[3][0]".
+  [[nodiscard]] std::string told() const;
   /// Throws InvalidInput with this message about this element.
   [[noreturn]] void refuse(std::string_view message) const;
 

@@ -3,10 +3,13 @@
 
 #pragma once
 
+#include <array>
+#include <string>
 #include <vector>
 
 #include "linespace/polygon_visibility.h"
 #include "linespace/segment_transversals.h"
+#include "linespace/visibility_map.h"
 #include "viewers/json_input.h"
 
 namespace sightline::viewers {
@@ -32,5 +35,20 @@ using PortalsQuestion = std::vector<std::vector<Point>>;
 /// that names the element; whether the polygons are convex is left to
 /// polygon_visibility().
 [[nodiscard]] std::vector<VisibilityQuestion> visibility_questions(const JsonInput& file);
+
+/// Of `look`: what is seen from here?
+struct ViewQuestion {
+  Viewpoint eye;
+  std::array<std::string, 3> asked;  ///< the coordinates as they were written
+  std::string where;                 ///< "FILE: views[3]" or "--from 1,2,3", for messages
+};
+
+/// {"views": [{"from": [x, y, z]} | {"direction": [x, y, z]}, ...]}; coordinates are
+/// numbers or strings "p/q".  Throws InvalidInput that names the element.
+[[nodiscard]] std::vector<ViewQuestion> view_questions(const JsonInput& file);
+
+/// The same from text "x,y,z" of an option.  Throws InvalidInput that names the option.
+[[nodiscard]] ViewQuestion view_question(Viewpoint::Kind kind, const std::string& option,
+                                         const std::string& text);
 
 }  // namespace sightline::viewers

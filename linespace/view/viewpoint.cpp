@@ -31,7 +31,8 @@ Rational coordinate(const std::string& text) {
   }
   double x = 0;
   const char* end = text.data() + text.size();
-  const char* begin = text.data() + (text.starts_with('+') ? 1 : 0);
+  const char* begin =
+      text.data() + (text.starts_with('+') && !text.starts_with("+-") ? 1 : 0);
   const auto [stop, error] = std::from_chars(begin, end, x);
   if (error != std::errc{} || stop != end || !std::isfinite(x)) return refuse();
   return Rational(x);

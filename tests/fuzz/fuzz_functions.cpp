@@ -31,6 +31,7 @@ void run_step(const std::string& bytes) {
 
 constexpr std::array kFunctions{
 #ifdef SIGHTLINE_FUZZ_VIEWERS
+    Function{"look", run_look},
     Function{"portals", run_portals},
     Function{"skeleton", run_skeleton},
     Function{"transversals", run_transversals},

@@ -40,6 +40,10 @@ void run_visible(const std::string& bytes) {
   });
 }
 
+void run_look(const std::string& bytes) {
+  refusing([&] { (void)viewers::view_questions(JsonInput("fuzz", bytes)); });
+}
+
 void run_skeleton(const std::string& bytes) {
   static const Scene room(
       internal::read_obj("room.obj", viewers::builtin_scene(), test::Unhurried()));

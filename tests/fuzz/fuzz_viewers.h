@@ -6,9 +6,11 @@
 
 namespace sightline::fuzz {
 
-/// The questions of `stab`, `transversals` and `visible`, up to where computing begins.
+/// The questions of `stab`, `transversals`, `visible` and `look`, up to where computing
+/// begins.
 void run_portals(const std::string& bytes);
 void run_transversals(const std::string& bytes);
+void run_look(const std::string& bytes);
 void run_visible(const std::string& bytes);
 /// A saved skeleton of the room (examples/scenes/room.obj), read as if its checksum and
 /// its fingerprint were right, so that the parser is reached and ids meet the scene's.

@@ -55,6 +55,9 @@ COMMANDS = [
     "skeleton cornell.obj -o out/s.json --json out/a.json --vtk out/vtk --list",
     "skeleton room.obj --kinds EV --list --json -",
     "skeleton cornell.obj --saved saved.json --seen-from outside --json out/a.json",
+    "look room.obj --from 5,1.6,4 --direction 1,2,3 --svg out/v.svg --png out/v.png --pixels 300 "
+    "--csv out/v.csv --vtk out/vtk --list --json out/a.json",
+    "look cornell.obj --from 1/3,2,7 --svg out/v.svg",
     "stab portals.json --json out/a.json --vtk out/vtk --list",
     "transversals segments.json --json out/a.json --vtk out/vtk --list",
     "visible question.json --json out/a.json",
@@ -77,6 +80,12 @@ def why_not_whole(path):
             for block in xml.etree.ElementTree.fromstring(data).iter("DataSet"):
                 if not (path.parent / block.get("file")).is_file():
                     return f"lists {block.get('file')}, which is not there"
+        elif path.suffix == ".svg":
+            xml.etree.ElementTree.fromstring(data)
+        elif path.suffix == ".csv":
+            rows = data.split(b"\n")
+            if rows.pop() != b"" or len({row.count(b",") for row in rows}) != 1:
+                return "is cut off"
         elif path.suffix == ".vtp":
             # Raw bytes stand between the head, which is XML, and the end.
             if not b"<VTKFile" in data[:100] or not data.rstrip().endswith(b"</VTKFile>"):

@@ -109,9 +109,11 @@ std::vector<NumberOption> number_options() {
       {"visible", "--rays", {.whole = true, .least = 1, .most = 1e6}},
       {"visible", "--seed", kSeed},
       {"visible", "--seam", kFromZero},
-      {"stab", "--rungs", {.whole = true, .least = 2, .most = 1e6}}};
+      {"stab", "--rungs", {.whole = true, .least = 2, .most = 1e6}},
+      {"look", "--pixels", {.whole = true, .least = 16, .most = 16384}},
+      {"look", "--fov", {.least = 0, .least_too = false, .most = 179}}};
   for (const char* command :
-       {"info", "skeleton", "analyse", "transversals", "stab", "visible"}) {
+       {"info", "look", "skeleton", "analyse", "transversals", "stab", "visible"}) {
     all.push_back({command, "--threads", kThreads});
     all.push_back({command, "--budget", kAboveZero});
   }
@@ -132,6 +134,10 @@ std::vector<NumberOption> number_options() {
       {"'#,0,0,9,9,9' 0,0,0,9,9,9", "0,0,0,9,9,9 '0,0,0,9,#,9'"});
   add("skeleton", "--crossed", {"'#,1,1' 5,5,5", "5,5,5 '1,#,1'", "5,5,5 '1,1,#'"});
   add("analyse", "--region", boxes);
+  for (const char* name : {"--from", "--direction", "--up", "--towards"}) {
+    add("look", name, points);
+  }
+  add("look", "--window", {"#,-2,2,2", "-2,#,2,2", "-2,-2,#,2", "-2,-2,2,#"});
   add("view", "--box", boxes);
   add("view", "--eye", points);
   add("view", "--look-at", points, "--eye 7,8,9");
@@ -150,6 +156,7 @@ class NumberOptions : public sightline::test::Shell {
                                                 const std::string& number) {
     static const std::map<std::string, std::string> kCommands{
         {"info", "info s.obj --json -"},
+        {"look", "look s.obj --from 7,8,9 --svg out.svg --json -"},
         {"skeleton", "skeleton s.obj --kinds EV --json -"},
         {"analyse", "analyse s.obj --json - -o out"},
         {"view", "view s.obj --png out.png"},
@@ -201,12 +208,12 @@ TEST_F(NumberOptions, AreAllOfThem) {
     known.insert(option.command + " " + option.name);
   }
   std::set<std::string> told;
-  for (const char* command :
-       {"info", "skeleton", "analyse", "view", "transversals", "stab", "visible"}) {
+  for (const char* command : {"info", "look", "skeleton", "analyse", "view",
+                              "transversals", "stab", "visible"}) {
     const std::string help = shell("$S " + std::string(command) + " --help").out;
     const std::regex option(
         "\n +(?:-., ?)?(--[a-z-]+) (?:N|S|R|L|M|W|SIZE|INT\\S*|W,H|"
-        "BOX|POINT|x,y,z|X,Y,Z)[ \n]");
+        "BOX|POINT|DEGREES|x,y,z|x0,y0,x1,y1|X,Y,Z)[ \n]");
     for (auto at = std::sregex_iterator(help.begin(), help.end(), option);
          at != std::sregex_iterator(); ++at) {
       told.insert(std::string(command) + " " + (*at)[1].str());
@@ -234,7 +241,7 @@ TEST_F(NumberOptions, TakeWhatIsANumberAndRefuseTheRestInOneLine) {
       expect_refused(line, r);
       ++refused;
     }
-    shell("rm -rf out out.png");
+    shell("rm -rf out out.* out0.* out1.*");
   }
   EXPECT_GT(refused, 60);
 }
@@ -245,9 +252,9 @@ TEST_F(NumberOptions, LeaveTheFileBehindThemAlone) {
   for (const NumberOption& option : number_options()) {
     std::string value = option.value;
     value.replace(value.find('#'), 1,
-                  option.name == "--size"  ? "60"
-                  : option.name == "--box" ? "0"
-                                           : "2");
+                  option.name == "--size" || option.name == "--pixels"  ? "60"
+                  : option.name == "--box" || option.name == "--window" ? "0"
+                                                                        : "2");
     options.push_back({option.command, option.with + " " + option.name + " " + value});
   }
   options.push_back({"skeleton", "--kinds EV"});
@@ -256,17 +263,17 @@ TEST_F(NumberOptions, LeaveTheFileBehindThemAlone) {
   options.push_back({"skeleton", "--between-ends a outside"});
   options.push_back({"analyse", "--only skeleton"});
   const std::map<std::string, std::string> rest{
-      {"info", "s.obj --json -"},        {"skeleton", "s.obj --json -"},
-      {"analyse", "s.obj -o out"},       {"view", "s.obj --png out.png"},
-      {"transversals", "t.json --list"}, {"stab", "p.json --list"},
-      {"visible", "s.obj a b --json -"}};
+      {"info", "s.obj --json -"},      {"skeleton", "s.obj --json -"},
+      {"look", "s.obj --from 7,8,9"},  {"analyse", "s.obj -o out"},
+      {"view", "s.obj --png out.png"}, {"transversals", "t.json --list"},
+      {"stab", "p.json --list"},       {"visible", "s.obj a b --json -"}};
   for (const auto& [command, option] : options) {
     // A report takes a second.
     if (command == "analyse" && option != "--only skeleton") continue;
     const std::string line = "$S " + command + " " + option + " " + rest.at(command);
     const Run r = shell(line);
     EXPECT_TRUE(r.status == 0 || r.status == 3) << line << "\n" << r.err;
-    shell("rm -rf out out.png");
+    shell("rm -rf out out.* out0.* out1.*");
   }
 }
 

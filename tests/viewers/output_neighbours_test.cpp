@@ -34,6 +34,9 @@ const std::vector<Output> kFileOutputs{
     {"view", "s.obj", "--png", "--size 60,60"},
     {"view", "saved.json", "--png", "--size 60,60"},
     {"view", "vtk/scene.vtp", "--png", "--size 60,60"},
+    {"look", "s.obj", "--svg", "--from 7,8,9"},
+    {"look", "s.obj", "--csv", "--from 7,8,9"},
+    {"look s.obj --at", "w.json", "--png", "--pixels 60"},
     {"transversals", "t.json", "--json", ""},
     {"stab", "p.json", "--json", ""},
     {"visible", "v.json", "--json", ""},
@@ -43,7 +46,7 @@ const std::vector<Output> kFolderOutputs{
     {"info", "s.obj", "--vtk", ""},          {"skeleton", "s.obj", "--vtk", "--kinds EV"},
     {"analyse", "s.obj", "-o", ""},          {"analyse", "s.obj", "--vtk", "-o report"},
     {"transversals", "t.json", "--vtk", ""}, {"stab", "p.json", "--vtk", ""},
-    {"visible", "s.obj", "--vtk", "a b"}};
+    {"visible", "s.obj", "--vtk", "a b"},    {"look", "s.obj", "--vtk", "--from 7,8,9"}};
 
 class OutputNeighbours : public sightline::test::Shell {
  protected:
@@ -53,6 +56,7 @@ class OutputNeighbours : public sightline::test::Shell {
     std::ofstream(folder_ / "v.json")
         << R"({"instances": [{"a": [[0,0,0],[1,0,0],[0,1,0]],)"
            R"("b": [[0,0,1],[1,0,1],[0,1,1]], "occluders": []}]})";
+    std::ofstream(folder_ / "w.json") << R"({"views": [{"direction": [1, 2, 3]}]})";
     EXPECT_EQ(shell("$S skeleton s.obj --kinds EV -o saved.json >/dev/null && "
                     "$S info s.obj --vtk vtk >/dev/null")
                   .status,
@@ -196,6 +200,8 @@ TEST_F(OutputNeighbours, DevicesPipesAndFoldersStayWhatTheyAre) {
         const std::string got = file_contents(folder_ / "got");
         if (output.option == "--png") {
           EXPECT_EQ(got.substr(1, 3), "PNG");
+        } else if (output.option == "--svg" || output.option == "--csv") {
+          EXPECT_TRUE(got.starts_with("<?xml") || got.starts_with("view,facet")) << got;
         } else {
           EXPECT_FALSE(json::parse(got, nullptr, false).is_discarded());
         }

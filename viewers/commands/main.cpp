@@ -84,6 +84,7 @@ int main(int argc, char** argv) {
   std::vector<std::pair<std::string, Command>> commands;
   commands.emplace_back("analyse", add_analyse_command(app));
   commands.emplace_back("info", add_info_command(app));
+  commands.emplace_back("look", add_look_command(app));
   commands.emplace_back("skeleton", add_skeleton_command(app));
   commands.emplace_back("stab", add_stab_command(app));
   commands.emplace_back("transversals", add_transversals_command(app));

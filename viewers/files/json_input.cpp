@@ -45,9 +45,11 @@ JsonInput::JsonInput(std::shared_ptr<const Document> document,
                      const nlohmann::json& value, std::string where)
     : document_(std::move(document)), value_(&value), where_(std::move(where)) {}
 
-void JsonInput::refuse(std::string_view message) const {
-  if (where_.empty()) refuse_file(document_->file, message);
-  refuse_file(document_->file, fmt::format("{}: {}", where_, message));
+void JsonInput::refuse(std::string_view message) const { refuse_file(told(), message); }
+
+std::string JsonInput::told() const {
+  return where_.empty() ? document_->file
+                        : fmt::format("{}: {}", document_->file, where_);
 }
 
 bool JsonInput::has(std::string_view key) const {
@@ -84,6 +86,19 @@ Point JsonInput::point() const {
     }
   }
   return p;
+}
+
+std::array<std::string, 3> JsonInput::coordinates() const {
+  constexpr const char* kExpected = "expected three numbers or strings \"p/q\"";
+  if (!value_->is_array() || value_->size() != 3) refuse(kExpected);
+  std::array<std::string, 3> texts;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const nlohmann::json& x = (*value_)[axis];
+    if (!x.is_number() && !x.is_string()) refuse(kExpected);
+    texts[axis] =
+        x.is_string() ? x.get<std::string>() : fmt::format("{}", x.get<double>());
+  }
+  return texts;
 }
 
 std::vector<Point> JsonInput::points(std::size_t least) const {

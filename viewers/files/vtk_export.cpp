@@ -1,7 +1,6 @@
 #include "viewers/vtk_export.h"
 
 #include <fmt/format.h>
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCellArrayIterator.h>
 #include <vtkCellData.h>
@@ -21,15 +20,14 @@
 #include <vtkUnsignedCharArray.h>
 #include <vtkXMLMultiBlockDataReader.h>
 #include <vtkXMLPolyDataReader.h>
-#include <vtkXMLPolyDataWriter.h>
 #include <vtkXMLReader.h>
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <map>
 
 #include "linespace/work/stage.h"
+#include "viewers/files/vtk_cells.h"
 #include "viewers/json_text.h"
 #include "viewers/kinds.h"
 #include "viewers/output_file.h"
@@ -39,101 +37,6 @@ namespace sightline::viewers {
 namespace {
 
 using internal::Stage;
-
-/// Polygons, lines or strips with arrays of one tuple a cell, in the making.
-class Cells {
- public:
-  Cells() {
-    points_->SetDataTypeToDouble();
-    colours_->SetName("colour");
-    colours_->SetNumberOfComponents(3);
-  }
-
-  vtkIdType add_point(const Point& p) {
-    return points_->InsertNextPoint(p.x(), p.y(), p.z());
-  }
-  void add_polygon(std::initializer_list<Point> corners, const Colour& colour) {
-    std::vector<vtkIdType> ids;
-    for (const Point& p : corners) ids.push_back(add_point(p));
-    add_polygon(ids, colour);
-  }
-  void add_polygon(const std::vector<vtkIdType>& ids, const Colour& colour) {
-    polygons_->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
-    add_colour(colour);
-  }
-  /// Room for so many strips with so many points in all.
-  void reserve(vtkIdType strips, vtkIdType points) {
-    points_->Allocate(points);
-    strips_->AllocateExact(strips, points);
-  }
-  /// The triangles between neighbouring segments, as one cell.
-  void add_strip(const std::vector<std::array<Point, 2>>& rungs, const Colour& colour) {
-    strips_->InsertNextCell(static_cast<int>(2 * rungs.size()));
-    for (const auto& [p, q] : rungs) {
-      strips_->InsertCellPoint(add_point(p));
-      strips_->InsertCellPoint(add_point(q));
-    }
-    add_colour(colour);
-  }
-  void add_line(const Point& a, const Point& b, const Colour& colour) {
-    const vtkIdType ids[2] = {add_point(a), add_point(b)};
-    lines_->InsertNextCell(2, ids);
-    add_colour(colour);
-  }
-
-  /// Appends one tuple to the named cell array.
-  void value(const char* name, std::initializer_list<int> tuple) {
-    vtkSmartPointer<vtkIntArray>& array = integers_[name];
-    if (!array) array = named<vtkIntArray>(name, static_cast<int>(tuple.size()));
-    for (const int v : tuple) array->InsertNextValue(v);
-  }
-  void value(const char* name, std::initializer_list<double> tuple) {
-    vtkSmartPointer<vtkDoubleArray>& array = reals_[name];
-    if (!array) array = named<vtkDoubleArray>(name, static_cast<int>(tuple.size()));
-    for (const double v : tuple) array->InsertNextValue(v);
-  }
-  void value(const char* name, const std::string& text) {
-    vtkSmartPointer<vtkStringArray>& array = texts_[name];
-    if (!array) array = named<vtkStringArray>(name, 1);
-    array->InsertNextValue(text);
-  }
-
-  [[nodiscard]] bool empty() const { return colours_->GetNumberOfTuples() == 0; }
-
-  [[nodiscard]] vtkSmartPointer<vtkPolyData> poly_data() const {
-    vtkNew<vtkPolyData> data;
-    data->SetPoints(points_);
-    data->SetPolys(polygons_);
-    data->SetLines(lines_);
-    data->SetStrips(strips_);
-    for (const auto& [name, array] : integers_) data->GetCellData()->AddArray(array);
-    for (const auto& [name, array] : reals_) data->GetCellData()->AddArray(array);
-    for (const auto& [name, array] : texts_) data->GetCellData()->AddArray(array);
-    data->GetCellData()->SetScalars(colours_);
-    return data;
-  }
-
- private:
-  template <typename Array>
-  static vtkSmartPointer<Array> named(const char* name, int components) {
-    vtkNew<Array> array;
-    array->SetName(name);
-    array->SetNumberOfComponents(components);
-    return array;
-  }
-  void add_colour(const Colour& colour) {
-    for (const float c : {colour.red, colour.green, colour.blue}) {
-      colours_->InsertNextValue(static_cast<unsigned char>(std::lround(255 * c)));
-    }
-  }
-
-  vtkNew<vtkPoints> points_;
-  vtkNew<vtkCellArray> polygons_, lines_, strips_;
-  vtkNew<vtkUnsignedCharArray> colours_;
-  std::map<std::string, vtkSmartPointer<vtkIntArray>> integers_;
-  std::map<std::string, vtkSmartPointer<vtkDoubleArray>> reals_;
-  std::map<std::string, vtkSmartPointer<vtkStringArray>> texts_;
-};
 
 vtkSmartPointer<vtkPolyData> scene_cells(const Scene& scene, Stage& stage) {
   Cells cells;
@@ -295,20 +198,6 @@ void add_node_blocks(Blocks& blocks, const Skeleton& skeleton, Stage& stage) {
   }
 }
 
-/// While it lives, VTK logs nothing: errors are asked of its readers and writers.
-class QuietVtk {
- public:
-  QuietVtk() : before_(vtkObject::GetGlobalWarningDisplay()) {
-    vtkObject::SetGlobalWarningDisplay(0);
-  }
-  ~QuietVtk() { vtkObject::SetGlobalWarningDisplay(before_); }
-  QuietVtk(const QuietVtk&) = delete;
-  QuietVtk& operator=(const QuietVtk&) = delete;
-
- private:
-  int before_;
-};
-
 /// How far the strips may be from the surfaces they stand for.
 void add_deviation(vtkPolyData* data, const Scene& scene) {
   vtkNew<vtkDoubleArray> deviation;
@@ -316,71 +205,6 @@ void add_deviation(vtkPolyData* data, const Scene& scene) {
   deviation->InsertNextValue(kEeeDeviation *
                              (scene.bounds()[1] - scene.bounds()[0]).norm());
   data->GetFieldData()->AddArray(deviation);
-}
-
-/// Lets VTK's writer ask whether to go on: exceptions may not pass through it.
-struct StopQuestion {
-  Stage* stage;
-  std::exception_ptr stopped;
-};
-
-void abort_when_stopped(vtkObject* writer, unsigned long, void* data, void*) {
-  auto& question = *static_cast<StopQuestion*>(data);
-  auto* algorithm = vtkAlgorithm::SafeDownCast(writer);
-  try {
-    question.stage->check(algorithm->GetProgress());
-  } catch (const Stopped&) {
-    question.stopped = std::current_exception();
-    algorithm->AbortExecuteOn();
-  }
-}
-
-void write_poly_data(const std::filesystem::path& path, vtkPolyData* data, Stage& stage) {
-  OutputFile file(path);
-  vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetFileName(file.temporary_path().c_str());
-  writer->SetInputData(data);
-  writer->SetEncodeAppendedData(0);
-  const vtkNew<vtkCallbackCommand> ask;
-  StopQuestion question{&stage, {}};
-  ask->SetClientData(&question);
-  ask->SetCallback(abort_when_stopped);
-  writer->AddObserver(vtkCommand::ProgressEvent, ask);
-  const QuietVtk quiet;
-  const int written = writer->Write();  // not 0 on a full disk
-  if (question.stopped) std::rethrow_exception(question.stopped);
-  if (written == 0 || writer->GetErrorCode() != vtkErrorCode::NoError) {
-    throw WriteError(
-        fmt::format("{}: could not be written to its end: {}", path.string(),
-                    vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
-  }
-  file.commit();
-}
-
-constexpr const char* kIndex = "sightline.vtm";
-
-/// Makes the folder.  An earlier index goes first, so that none lists files of two runs.
-void begin_folder(const std::filesystem::path& folder) {
-  make_folder(folder);
-  std::error_code error;
-  const bool ours = is_regular_file(symlink_status(folder / kIndex, error));
-  if (ours && !std::filesystem::remove(folder / kIndex, error) && error)
-    throw WriteError((folder / kIndex).string() + ": " + error.message());
-}
-
-/// The index of blocks.  Written by hand because VTK's own writer would put the pieces
-/// into a folder under numbers instead of names.
-std::string multi_block_text(const std::vector<std::string>& blocks) {
-  std::string text =
-      "<?xml version=\"1.0\"?>\n"
-      "<VTKFile type=\"vtkMultiBlockDataSet\" version=\"1.0\" "
-      "byte_order=\"LittleEndian\" header_type=\"UInt32\">\n"
-      "  <vtkMultiBlockDataSet>\n";
-  for (std::size_t i = 0; i < blocks.size(); ++i) {
-    text += fmt::format("    <DataSet index=\"{}\" name=\"{}\" file=\"{}.vtp\"/>\n", i,
-                        blocks[i], blocks[i]);
-  }
-  return text + "  </vtkMultiBlockDataSet>\n</VTKFile>\n";
 }
 
 Colour cell_colour(vtkPolyData* data, vtkIdType cell) {
@@ -502,14 +326,14 @@ void require_content(const VtkPicture& picture) {
 }  // namespace
 
 bool is_vtk_name(const std::string& name) {
-  return name == kIndex || name.ends_with(".vtp");
+  return name == kVtkIndex || name.ends_with(".vtp");
 }
 
 std::vector<std::string> write_vtk(const std::filesystem::path& folder,
                                    const Scene& scene, const VtkContents& contents,
                                    const Request& request) {
   Stage stage(request, "VTK files");
-  begin_folder(folder);
+  begin_vtk_folder(folder);
   std::vector<std::string> names{"scene", "edges"};
   write_poly_data(folder / "scene.vtp", scene_cells(scene, stage), stage);
   write_poly_data(folder / "edges.vtp", edge_cells(scene, stage), stage);
@@ -536,10 +360,10 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
       });
     }
   }
-  write_whole(folder / kIndex, multi_block_text(names));
+  write_whole(folder / kVtkIndex, multi_block_text(names));
   std::vector<std::string> files;
   for (const std::string& name : names) files.push_back(name + ".vtp");
-  files.emplace_back(kIndex);
+  files.emplace_back(kVtkIndex);
   return files;
 }
 
@@ -547,7 +371,7 @@ std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
                                          const std::vector<LineBlock>& blocks,
                                          const Request& request) {
   Stage stage(request, "VTK files");
-  begin_folder(folder);
+  begin_vtk_folder(folder);
   std::vector<std::string> names;
   std::vector<std::string> files;
   for (const LineBlock& block : blocks) {
@@ -572,8 +396,8 @@ std::vector<std::string> write_vtk_lines(const std::filesystem::path& folder,
     names.push_back(block.name);
     files.push_back(block.name + ".vtp");
   }
-  write_whole(folder / kIndex, multi_block_text(names));
-  files.emplace_back(kIndex);
+  write_whole(folder / kVtkIndex, multi_block_text(names));
+  files.emplace_back(kVtkIndex);
   return files;
 }
 

@@ -64,16 +64,11 @@ Json edge_json(const Scene& scene, int id) {
 }
 
 Json facet_json(const Scene& scene, int id) {
-  const Facet& facet = scene.facets()[id];
-  Json polygons = Json::array();
-  for (const int f : facet.faces) {
-    const int polygon = scene.faces()[f].source;
-    if (polygons.empty() || polygons.back() != polygon) polygons.push_back(polygon);
-  }
+  const int object = scene.facets()[id].object;
   return {{"type", "face"},
           {"id", id},
-          {"faces", polygons},
-          {"objects", Json::array({scene.objects()[facet.object].name})}};
+          {"faces", polygons_of(scene, id)},
+          {"objects", Json::array({scene.objects()[object].name})}};
 }
 
 /// "defects", up to kDefectsListed of a kind, and "defect_counts", of all.
@@ -92,18 +87,6 @@ void add_defects(Json& info, const std::vector<Defect>& defects) {
   info["defect_limit"] = kDefectsListed;
   info["defect_counts"] = Json::object();
   for (const auto& [kind, count] : counts) info["defect_counts"][kind] = count;
-}
-
-Json generator_json(const Scene& scene, const Generator& generator) {
-  switch (generator.kind) {
-    case GeneratorKind::Vertex:
-      return vertex_json(scene, generator.id);
-    case GeneratorKind::Edge:
-      return edge_json(scene, generator.id);
-    case GeneratorKind::Face:
-      return facet_json(scene, generator.id);
-  }
-  return nullptr;
 }
 
 }  // namespace
@@ -165,6 +148,28 @@ Json position_json(const ExactPosition& p) {
     }
   }
   return j;
+}
+
+std::vector<int> polygons_of(const Scene& scene, int facet) {
+  std::vector<int> polygons;
+  for (const int f : scene.facets()[facet].faces) {
+    polygons.push_back(scene.faces()[f].source);
+  }
+  std::ranges::sort(polygons);
+  polygons.erase(std::unique(polygons.begin(), polygons.end()), polygons.end());
+  return polygons;
+}
+
+Json generator_json(const Scene& scene, const Generator& generator) {
+  switch (generator.kind) {
+    case GeneratorKind::Vertex:
+      return vertex_json(scene, generator.id);
+    case GeneratorKind::Edge:
+      return edge_json(scene, generator.id);
+    case GeneratorKind::Face:
+      return facet_json(scene, generator.id);
+  }
+  return nullptr;
 }
 
 Json info_json(const Scene& scene, const std::vector<Defect>& defects) {

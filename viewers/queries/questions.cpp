@@ -1,5 +1,7 @@
 #include "viewers/questions.h"
 
+#include <fmt/format.h>
+
 #include <string_view>
 
 #include "linespace/portals.h"
@@ -27,6 +29,17 @@ std::vector<Point> portal_of(const JsonInput& item) {
     item.refuse(what.substr(what.find(": ") + 2));
   }
   return portal;
+}
+
+std::array<std::string, 3> three_texts(const std::string& text) {
+  const std::size_t first = text.find(',');
+  const std::size_t second =
+      text.find(',', first == std::string::npos ? first : first + 1);
+  if (second == std::string::npos || text.find(',', second + 1) != std::string::npos) {
+    throw InvalidInput("expected x,y,z");
+  }
+  return {text.substr(0, first), text.substr(first + 1, second - first - 1),
+          text.substr(second + 1)};
 }
 
 }  // namespace
@@ -58,6 +71,37 @@ std::vector<VisibilityQuestion> visibility_questions(const JsonInput& file) {
     }
   }
   return questions;
+}
+
+std::vector<ViewQuestion> view_questions(const JsonInput& file) {
+  std::vector<ViewQuestion> questions;
+  for (const JsonInput& view : file.at("views").items()) {
+    const bool from = view.has("from");
+    if (from == view.has("direction")) {
+      view.refuse(R"(expected either "from" or "direction")");
+    }
+    const JsonInput where = view.at(from ? "from" : "direction");
+    const std::array<std::string, 3> asked = where.coordinates();
+    try {
+      const Viewpoint::Kind kind =
+          from ? Viewpoint::Kind::Eye : Viewpoint::Kind::Direction;
+      questions.push_back({viewpoint(kind, asked), asked, where.told()});
+    } catch (const InvalidInput& refusal) {
+      where.refuse(refusal.what());
+    }
+  }
+  if (questions.empty()) file.at("views").refuse("expected at least one view");
+  return questions;
+}
+
+ViewQuestion view_question(Viewpoint::Kind kind, const std::string& option,
+                           const std::string& text) {
+  try {
+    const std::array<std::string, 3> asked = three_texts(text);
+    return {viewpoint(kind, asked), asked, fmt::format("{} {}", option, text)};
+  } catch (const InvalidInput& refusal) {
+    throw InvalidInput(fmt::format("{} '{}': {}", option, text, refusal.what()));
+  }
 }
 
 }  // namespace sightline::viewers
