@@ -76,6 +76,7 @@ void EyeStar::find_place() {
   const ViewScene& scene = eye_->scene();
   if (faces_.empty()) {
     ids_ = scene.solids().solids_around(eye_->eye());
+    std::ranges::sort(ids_);
     if (!ids_.empty()) place_ = EyePlace::Inside;
     return;
   }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "linespace/view/first_seen.h"
+#include "linespace/work/stop_scope.h"
 
 namespace sightline::internal {
 namespace {
@@ -304,6 +305,7 @@ void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
   std::vector<int> ends;
   for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
     if (possibly_seen[f] == 0 || eye.front(f) != Sign::Zero) continue;
+    hear_stop();
     const int facet = scene.scene().faces()[f].facet;
     for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
       const int line = scene.line_of_side(f, k);
@@ -340,16 +342,14 @@ std::vector<Accident> find_accidents(const EyeSpace& eye, LineViewer& viewer,
   find_edge_on(eye, viewer, possibly_seen, found);
   std::vector<PicturePoint> points;
   for (const Suspect& s : viewer.suspects()) {
-    PicturePoint p =
-        s.point >= 0 ? PicturePoint(eye, s.point) : PicturePoint(eye, s.line, s.cut);
-    if (std::ranges::any_of(points,
-                            [&](const PicturePoint& q) { return same_point(p, q); })) {
-      continue;
-    }
-    points.push_back(std::move(p));
+    points.push_back(s.point >= 0 ? PicturePoint(eye, s.point)
+                                  : PicturePoint(eye, s.line, s.cut));
   }
-  for (const PicturePoint& p : points) {
-    if (auto accident = PointInspector(eye, possibly_seen, p).inspect())
+  const std::vector<int> numbers = number_points(points);
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    hear_stop();
+    if (numbers[i] != i) continue;
+    if (auto accident = PointInspector(eye, possibly_seen, points[i]).inspect())
       found.push_back(std::move(*accident));
   }
   std::ranges::sort(found);
