@@ -502,6 +502,24 @@ TEST_F(ViewVtk, RegionsCoverWhatIsSeen) {
   EXPECT_NEAR(sum, expected, 1e-9);
 }
 
+// An eye inside a cube sees the backs of its faces: each is one polygon, turned to it.
+TEST_F(ViewVtk, BacksAreTurnedToTheEye) {
+  const Scene scene = cube();
+  const Point eye(0.3, 0.4, 0.55);
+  const PointView view = PointViewIndex(scene).view(eye_at(eye));
+  const ViewDrawing drawing = view_drawing(scene, view);
+  write_vtk_views(folder_, scene, {{&view, &drawing}});
+  const VtkPicture regions = read_vtk(folder_ / "view0_regions.vtp");
+  EXPECT_EQ(regions.veils.size(), 12U);
+  double sum = 0;
+  for (const VeilTriangle& veil : regions.veils) {
+    const auto& [a, b, c] = veil.points;
+    EXPECT_GT((b - a).cross(c - a).dot(eye - a), 0);
+    sum += solid_angle(a - eye, b - eye, c - eye);
+  }
+  EXPECT_NEAR(sum, 4 * M_PI, 1e-12);
+}
+
 TEST_F(ViewVtk, ARegionWithAHoleIsCut) {
   const PointView view = plan_with_hole();
   const Scene scene = box({0, 0, 0}, {4, 4, 1});
