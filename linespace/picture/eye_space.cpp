@@ -103,12 +103,13 @@ EyeSpace::EyeSpace(const ViewScene& scene, const Viewpoint& eye)
 
 const ExactPoint& EyeSpace::exact_vector(int point) const {
   auto& known = exact_vectors_[point];
-  if (!known) {
-    const ExactPoint p = scene_->exact(point);
-    known = direction_ ? ExactPoint{exact_dot(across_[0], p), exact_dot(across_[1], p), 1}
-                       : exact_difference(eye_, p);
-  }
+  if (!known) known = vector_to(scene_->exact(point));
   return *known;
+}
+
+ExactPoint EyeSpace::vector_to(const ExactPoint& p) const {
+  return direction_ ? ExactPoint{exact_dot(across_[0], p), exact_dot(across_[1], p), 1}
+                    : exact_difference(eye_, p);
 }
 
 const LongVector& EyeSpace::vector(int point) const {
@@ -129,9 +130,12 @@ const LongVector& EyeSpace::vector(int point) const {
 }
 
 Rational EyeSpace::exact_height(int point) const {
+  return direction_ ? height_of(scene_->exact(point)) : Rational(1);
+}
+
+Rational EyeSpace::height_of(const ExactPoint& p) const {
   if (!direction_) return 1;
-  const Rational along = scene_->exact(point)[axis_];
-  return eye_[axis_] < 0 ? Rational(-along) : along;
+  return eye_[axis_] < 0 ? Rational(-p[axis_]) : p[axis_];
 }
 
 Rational EyeSpace::exact_orient_value(int p, int q, int r) const {

@@ -50,10 +50,12 @@ class EyeSpace {
   /// The picture vector of a point, each component within 2^-62 of itself.
   [[nodiscard]] const LongVector& vector(int point) const;
   [[nodiscard]] const ExactPoint& exact_vector(int point) const;
+  [[nodiscard]] ExactPoint vector_to(const ExactPoint& p) const;
   /// What is nearer of two points seen in one: of P = a X + b Y in space the vector is
   /// a x + b y and the height a h + b k, and at one multiple of a vector the larger
   /// height is nearer.  1 for an eye; for a direction, how far along it the point is.
   [[nodiscard]] Rational exact_height(int point) const;
+  [[nodiscard]] Rational height_of(const ExactPoint& p) const;
   /// What a picture vector means: the unit vector of the ray to it; or, for a direction,
   /// the point of the plane across it through the origin.
   [[nodiscard]] Point drawn_at(const LongVector& v) const;

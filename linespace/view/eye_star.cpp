@@ -58,11 +58,18 @@ void EyeStar::find_faces() {
   std::ranges::sort(faces_);
   for (const int f : faces_) {
     normals_.push_back(normal_of(scene, f));
-    for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
-      if (const int line = scene.line_of_side(f, k); line >= 0) sides_.push_back(line);
+    // A plane facet goes on where its faces meet; a bent one has lines there.
+    const Facet& facet = scene.scene().facets()[scene.scene().faces()[f].facet];
+    const std::span<const int> around =
+        facet.planar ? std::span(facet.faces) : std::span(&f, 1);
+    for (const int g : around) {
+      for (int k = 0; k < scene.scene().faces()[g].corner_count; ++k) {
+        if (const int line = scene.line_of_side(g, k); line >= 0) sides_.push_back(line);
+      }
     }
   }
   std::ranges::sort(sides_);
+  sides_.erase(std::ranges::unique(sides_).begin(), sides_.end());
 }
 
 void EyeStar::find_place() {

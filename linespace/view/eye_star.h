@@ -24,7 +24,9 @@ class EyeStar {
   [[nodiscard]] const std::vector<int>& ids() const { return ids_; }
   /// Faces on which the eye lies, their boundary included, ascending.
   [[nodiscard]] std::span<const int> faces() const { return faces_; }
-  /// The line is a side of one of them.
+  /// Lines that are sides of the facets of these faces, ascending.
+  [[nodiscard]] std::span<const int> sides() const { return sides_; }
+  /// The line is one of them.
   [[nodiscard]] bool bounds(int line) const;
 
   /// Rays near the given one run into material.  The ray points along `way`, or just
@@ -41,7 +43,7 @@ class EyeStar {
   EyePlace place_ = EyePlace::Free;
   std::vector<int> ids_, faces_;
   std::vector<ExactPoint> normals_;  // of faces_
-  std::vector<int> sides_;           // lines, ascending
+  std::vector<int> sides_;           // lines of their facets, ascending
   /// Whether rays with these signs against normals_ are blocked.
   mutable std::map<std::vector<int>, bool> known_;
 };

@@ -34,9 +34,9 @@ int PointViewIndex::patch_of(int facet, bool front) const {
 namespace {
 
 // Lines beside which a face that may be seen ends, or is cut by another, each once.
-std::vector<int> lines_to_ask(const ViewScene& scene,
+std::vector<int> lines_to_ask(const ViewScene& scene, const EyeStar& star,
                               std::span<const std::uint8_t> possibly_seen) {
-  std::vector<int> lines;
+  std::vector<int> lines(star.sides().begin(), star.sides().end());
   for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
     if (possibly_seen[f] == 0) continue;
     for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
@@ -61,7 +61,7 @@ PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) con
   std::vector<LinePiece> pieces;
   const EyeStar star(space);
   LineViewer viewer(space, star, seen);
-  const std::vector<int> lines = lines_to_ask(scene, seen);
+  const std::vector<int> lines = lines_to_ask(scene, star, seen);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     stage.at(i, lines.size());
     viewer.view(lines[i], pieces);

@@ -228,38 +228,74 @@ std::optional<Accident> PointInspector::inspect() {
   return name();
 }
 
-// Outside material, just beside the middle of a part of a line, over a facet's face.
-bool exposed(const EyeSpace& eye, int face, int line,
-             const std::array<LineCut, 2>& part) {
-  const ViewScene& scene = eye.scene();
-  const LineCuts cuts(eye, line);
-  const auto [a, b] = scene.lines()[line].ends;
-  const Rational middle = (cuts.exact(part[0]) + cuts.exact(part[1])) / 2;
-  const ExactPoint on = along(scene.exact(a), scene.exact(b), middle);
-  ExactPoint inside{};
-  const auto corners = scene.scene().face_points(face);
-  for (const int c : corners) {
-    for (int i = 0; i < 3; ++i) inside[i] += scene.exact(c)[i];
+// Whether an eye near by would see a facet that is seen edge-on: does sight reach a point
+// of its face just inside the middle of a part of its side, on either of its sides?
+class EdgeOnFace {
+ public:
+  EdgeOnFace(const EyeSpace& eye, std::span<const std::uint8_t> possibly_seen, int face)
+      : eye_(&eye), possibly_seen_(possibly_seen), face_(face) {}
+
+  [[nodiscard]] bool exposed(int line, const std::array<LineCut, 2>& part) const {
+    const ViewScene& scene = eye_->scene();
+    const LineCuts cuts(*eye_, line);
+    const auto [a, b] = scene.lines()[line].ends;
+    const Rational middle = (cuts.exact(part[0]) + cuts.exact(part[1])) / 2;
+    const ExactPoint on = along(scene.exact(a), scene.exact(b), middle);
+    const ExactPoint inside = centroid();
+    // A 2^-40th of the way into the face; and as much of that off it.
+    const Rational step(0x1p-40);
+    const ExactPoint point = along(on, inside, step);
+    ExactPoint off = normal();
+    const ExactPoint way = exact_difference(inside, on);
+    const Rational scale = step * step * size(way) / size(off);
+    for (Rational& x : off) x *= scale;
+    return exposed(line, point, off) || exposed(line, point, {-off[0], -off[1], -off[2]});
   }
-  for (Rational& x : inside) x /= static_cast<int>(corners.size());
-  // A 2^-40th of the way into the face, and that much squared off it.
-  const Rational step(0x1p-40);
-  const ExactPoint beside = along(on, inside, step);
-  const auto t = plane_points(scene.scene(), face);
-  const ExactPoint normal =
-      exact_cross(exact_difference(scene.exact(t[1]), scene.exact(t[0])),
-                  exact_difference(scene.exact(t[2]), scene.exact(t[0])));
-  Rational largest = abs(normal[0]) + abs(normal[1]) + abs(normal[2]);
-  const ExactPoint way = exact_difference(inside, on);
-  const Rational size = abs(way[0]) + abs(way[1]) + abs(way[2]);
-  for (const int sign : {1, -1}) {
-    const Rational off = sign * step * step * size / largest;
-    ExactPoint p = beside;
-    for (int i = 0; i < 3; ++i) p[i] += off * normal[i];
-    if (!scene.silhouettes().in_material(p)) return true;
+
+ private:
+  static Rational size(const ExactPoint& v) { return abs(v[0]) + abs(v[1]) + abs(v[2]); }
+
+  [[nodiscard]] ExactPoint centroid() const {
+    const Scene& scene = eye_->scene().scene();
+    const auto corners = scene.face_points(face_);
+    ExactPoint sum{};
+    for (const int c : corners) {
+      const ExactPoint p = exact_point(scene.point(c));
+      for (int i = 0; i < 3; ++i) sum[i] += p[i];
+    }
+    for (Rational& x : sum) x /= static_cast<int>(corners.size());
+    return sum;
   }
-  return false;
-}
+
+  [[nodiscard]] ExactPoint normal() const {
+    const Scene& scene = eye_->scene().scene();
+    const auto t = plane_points(scene, face_);
+    const ExactPoint at = exact_point(scene.point(t[0]));
+    return exact_cross(exact_difference(exact_point(scene.point(t[1])), at),
+                       exact_difference(exact_point(scene.point(t[2])), at));
+  }
+
+  // On the side of the face to which `off` points.
+  [[nodiscard]] bool exposed(int line, const ExactPoint& point,
+                             const ExactPoint& off) const {
+    ExactPoint over = point;
+    for (int i = 0; i < 3; ++i) over[i] += off[i];
+    if (eye_->scene().silhouettes().in_material(over)) return false;
+    const auto [a, b] = eye_->scene().lines()[line].ends;
+    ExactPoint left = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
+    if (exact_dot(left, eye_->vector_to(over)) < 0) {
+      left = {-left[0], -left[1], -left[2]};
+    }
+    const ExactPoint vector = eye_->vector_to(point);
+    const auto seen = first_seen(*eye_, {{*eye_, vector}, {left}}, possibly_seen_);
+    return seen.empty() ||
+           Nearness(*eye_, seen.front()).at(vector) <= eye_->height_of(point);
+  }
+
+  const EyeSpace* eye_;
+  std::span<const std::uint8_t> possibly_seen_;
+  int face_;
+};
 
 void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
                   std::span<const std::uint8_t> possibly_seen,
@@ -275,7 +311,7 @@ void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
       if (eye.end_on(line)) {
         ends.push_back(line);
       } else if (const auto part = viewer.part_in_sight(line);
-                 part && exposed(eye, f, line, *part)) {
+                 part && EdgeOnFace(eye, possibly_seen, f).exposed(line, *part)) {
         accidents.push_back({AccidentKind::EdgeOn, {{GeneratorKind::Face, facet}}});
       }
     }

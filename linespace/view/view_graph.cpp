@@ -45,12 +45,12 @@ class GraphBuilder {
   void find_components();
   void join_cycles();
   void link_component(int edge, const PictureTree& tree, bool to_the_end);
-  bool try_link(int edge, const PictureTree& tree, const PicturePoint& pole,
+  bool try_link(int edge, int weight, const PictureTree& tree, const PicturePoint& pole,
                 bool to_the_end);
   void label_regions();
   [[nodiscard]] FacetSides label(const std::vector<int>& faces) const;
   [[nodiscard]] const SeenBeside& told_beside(int half_edge) const;
-  [[nodiscard]] PicturePoint middle(int edge) const;
+  [[nodiscard]] PicturePoint middle(int edge, int weight = 1) const;
   [[nodiscard]] PicturePoint far_end(int half_edge) const;
 
   const EyeSpace* eye_;
@@ -79,8 +79,10 @@ void GraphBuilder::turn_around(int point, std::vector<int>& leaving) const {
   const PicturePoint& at = graph_.points[point];
   std::vector<PicturePoint> far;
   for (const int h : leaving) far.push_back(far_end(h));
+  const auto line = [&](std::size_t i) { return graph_.edges[leaving[i] / 2].line; };
+  // One line leaves a point only both ways.
   const auto turn = [&](std::size_t i, std::size_t j) {
-    return orient(at, far[i], far[j]);
+    return line(i) == line(j) ? Sign::Zero : orient(at, far[i], far[j]);
   };
   // From the first: 0 itself, 1 less than half a turn, 2 half a turn, 3 more.
   std::vector<int> sector(leaving.size());
@@ -131,16 +133,17 @@ void GraphBuilder::find_components() {
   }
 }
 
-PicturePoint GraphBuilder::middle(int edge) const {
+// A point inside an edge, another for each weight.
+PicturePoint GraphBuilder::middle(int edge, int weight) const {
   const auto [from, to] = graph_.edges[edge].ends;
   const PicturePoint &p = graph_.points[from], &q = graph_.points[to];
-  // Some point between the two will do: of vectors of like length, their sum.
+  // Of vectors of like length, their weighted sum.
   const auto scale = [](const PicturePoint& x) {
     const ExactPoint& v = x.exact();
     const Rational size = abs(v[0]) + abs(v[1]) + abs(v[2]);
     return Rational(std::ldexp(1.0, -std::ilogb(static_cast<double>(size))));
   };
-  const Rational s = scale(p), t = scale(q);
+  const Rational s = scale(p), t = weight * scale(q);
   ExactPoint sum;
   for (int i = 0; i < 3; ++i) sum[i] = s * p.exact()[i] + t * q.exact()[i];
   return {*eye_, sum};
@@ -172,22 +175,21 @@ void GraphBuilder::join_cycles() {
 }
 
 void GraphBuilder::link_component(int edge, const PictureTree& tree, bool to_the_end) {
-  // Where all ways end: anywhere, but the same for all; another if one passes a point of
-  // the graph, which hardly ever happens.
-  for (int attempt = 0; attempt < 64; ++attempt) {
-    const Rational x(0.4142 + 0.013 * attempt), y(-0.7321 + 0.0017 * attempt),
-        z(0.5391 + 0.0007 * attempt * attempt);
-    const PicturePoint pole(*eye_, eye_->is_direction()
-                                       ? ExactPoint{Rational(8 * x), Rational(8 * y), 1}
-                                       : ExactPoint{x, y, z});
-    if (try_link(edge, tree, pole, to_the_end)) return;
+  // All ways end at one point of the picture, which is in line with nothing.
+  const PicturePoint pole(
+      *eye_, eye_->is_direction()
+                 ? ExactPoint{Rational(3.3137), Rational(-5.8572), 1}
+                 : ExactPoint{Rational(0.4142), Rational(-0.7321), Rational(0.5391)});
+  // From some point of the edge; from another if that way passes a point of the graph.
+  for (int weight = 1; weight < 64; ++weight) {
+    if (try_link(edge, weight, tree, pole, to_the_end)) return;
   }
   throw std::logic_error("point view: no way out of a component");
 }
 
-bool GraphBuilder::try_link(int edge, const PictureTree& tree, const PicturePoint& pole,
-                            bool to_the_end) {
-  const PicturePoint start = middle(edge);
+bool GraphBuilder::try_link(int edge, int weight, const PictureTree& tree,
+                            const PicturePoint& pole, bool to_the_end) {
+  const PicturePoint start = middle(edge, weight);
   const auto& e0 = graph_.edges[edge];
   const Sign first = orient(graph_.points[e0.ends[0]], graph_.points[e0.ends[1]], pole);
   if (first == Sign::Zero) return false;
@@ -195,9 +197,8 @@ bool GraphBuilder::try_link(int edge, const PictureTree& tree, const PicturePoin
   // The edges that the way crosses, with the half-edge whose left it comes from.
   struct Crossing {
     int half_edge;
-    long double at;
-    Rational exact_at;
-    bool is_exact = false;
+    long double at, error;
+    std::optional<Rational> exact_at;
   };
   std::vector<Crossing> crossings;
   bool generic = true;
@@ -214,31 +215,37 @@ bool GraphBuilder::try_link(int edge, const PictureTree& tree, const PicturePoin
     if (at_p == at_q) return;
     const Sign from = orient(p, q, start);
     const Sign to = orient(p, q, pole);
-    if (from == Sign::Zero || to == Sign::Zero) {
-      generic = from != Sign::Zero && to != Sign::Zero;
+    // In line with the start, which is on another edge: the way leaves that line at once.
+    if (from == Sign::Zero) return;
+    if (to == Sign::Zero) {
+      generic = false;
       return;
     }
     // Opposite sides both ways; and not on the other side of the sphere.
     if (from == to || from == at_p) return;
+    // Where on the way, as a ratio of the distances of its ends from the edge's line.  An
+    // edge is at least as long as its ends' errors are small.
     const LongVector n = cross(p.vector(), q.vector());
     const long double a = dot(n, start.vector()), b = dot(n, pole.vector());
-    crossings.push_back({from == Sign::Positive ? 2 * e : 2 * e + 1, a / (a - b), 0});
+    const long double off = 8 * (p.error() + q.error() + start.error() + 0x1p-60L);
+    const long double size = std::abs(a) + std::abs(b);
+    crossings.push_back({from == Sign::Positive ? 2 * e : 2 * e + 1,
+                         std::abs(a) / size, size > 4 * off ? 4 * off / size : 1, {}});
   });
   if (!generic) return false;
   const auto exact_at = [&](Crossing& c) -> const Rational& {
-    if (!c.is_exact) {
+    if (!c.exact_at) {
       const auto& ends = graph_.edges[c.half_edge / 2].ends;
       const ExactPoint n =
           exact_cross(graph_.points[ends[0]].exact(), graph_.points[ends[1]].exact());
       const Rational a = exact_dot(n, start.exact()), b = exact_dot(n, pole.exact());
-      c.exact_at = a / (a - b);
-      c.is_exact = true;
+      c.exact_at = quotient(a, Rational(a - b));
     }
-    return c.exact_at;
+    return *c.exact_at;
   };
-  for (Crossing& c : crossings) exact_at(c);
-  std::ranges::sort(crossings, [&](const Crossing& x, const Crossing& y) {
-    return x.exact_at < y.exact_at;
+  std::sort(crossings.begin(), crossings.end(), [&](Crossing& x, Crossing& y) {
+    if (std::abs(x.at - y.at) > x.error + y.error) return x.at < y.at;
+    return exact_at(x) < exact_at(y);
   });
 
   int here = first == Sign::Positive ? cycles_[2 * edge] : cycles_[2 * edge + 1];

@@ -135,7 +135,8 @@ ViewMeasures measure(const EyeSpace& eye, const ViewGraph& graph,
   std::vector<Sum> regions(background.size());
   // The background may reach round the eye: no point of it will do for a reference.
   for (std::size_t r = 0; r < regions.size(); ++r) {
-    if (background[r] && !eye.is_direction()) regions[r].reference = LongEigen(0.36L, -0.48L, 0.8L);
+    if (background[r] && !eye.is_direction())
+      regions[r].reference = LongEigen(0.36L, -0.48L, 0.8L);
   }
   for (int h = 0; h < static_cast<int>(graph.region.size()); ++h) {
     const int here = graph.region[h], there = graph.region[h ^ 1];

@@ -47,27 +47,23 @@ NaiveViewer::NaiveViewer(const Scene& scene) : scene_(scene) {
     offsets.push_back(
         dot(normals[f].rational(), exact(scene.point(scene.face_points(f)[0]))));
   }
-  for (const int side : {-1, 1}) {
-    Sets sets(facets);
-    for (int f = 0; f < faces; ++f) {
-      if (!is_sheet(scene, f) && facing(scene, f) != side) continue;
-      for (int g = 0; g < f; ++g) {
-        if (!is_sheet(scene, g) && facing(scene, g) != side) continue;
-        if (normals[f] == normals[g] && offsets[f] == offsets[g] &&
-            touch_along(scene, f, g)) {
-          sets.join(scene.faces()[f].facet, scene.faces()[g].facet);
-        }
+  Sets sets(facets);
+  for (int f = 0; f < faces; ++f) {
+    for (int g = 0; g < f; ++g) {
+      const bool alike = is_sheet(scene, f) || is_sheet(scene, g) ||
+                         facing(scene, f) == facing(scene, g);
+      if (alike && normals[f] == normals[g] && offsets[f] == offsets[g] &&
+          touch_along(scene, f, g)) {
+        sets.join(scene.faces()[f].facet, scene.faces()[g].facet);
       }
     }
-    for (int i = 0; i < facets; ++i) {
-      patches_[side > 0].push_back(2 * sets.find(i) + (side > 0 ? 1 : 0));
-    }
   }
+  for (int i = 0; i < facets; ++i) patches_.push_back(sets.find(i));
 }
 
-int NaiveViewer::patch_of(int facet, int side) const {
-  const int front = facing(scene_, scene_.facets()[facet].faces[0]);
-  return patches_[front * side > 0 ? 1 : 0][facet];
+int NaiveViewer::patch_of(int facet, bool front) const {
+  const bool above = (facing(scene_, scene_.facets()[facet].faces[0]) > 0) == front;
+  return 2 * patches_[facet] + (above ? 1 : 0);
 }
 
 }  // namespace sightline::testing

@@ -84,8 +84,7 @@ class MapMaker {
     if (cell.faces.empty()) return {cell.blocked ? -2 : -1};
     std::vector<int> result;
     for (const int f : cell.faces) {
-      const int side = is_sheet(scene_, f) && picture_.front[f] == 0 ? -1 : 1;
-      result.push_back(viewer_.patch_of(scene_.faces()[f].facet, side));
+      result.push_back(viewer_.patch_of(scene_.faces()[f].facet, picture_.front[f] != 0));
     }
     return sorted_set(result);
   }

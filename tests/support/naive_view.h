@@ -105,13 +105,13 @@ class NaiveViewer {
   /// one, two of them opposite: true by the definition unless all four lie on one event.
   [[nodiscard]] bool general(const NaiveEye& eye) const;
 
-  /// Number of the patch that the facet belongs to: of a sheet, on the side of its front
-  /// (+1) or of its back (-1).
-  [[nodiscard]] int patch_of(int facet, int side) const;
+  /// Number of the patch as it is seen from the facet's front or from its back: a sheet
+  /// joins whatever hangs together with it, on both sides.
+  [[nodiscard]] int patch_of(int facet, bool front) const;
 
  private:
   const Scene& scene_;
-  std::array<std::vector<int>, 2> patches_;
+  std::vector<int> patches_;  ///< of facets, whatever the side
 };
 
 }  // namespace sightline::testing

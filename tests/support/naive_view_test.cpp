@@ -252,7 +252,7 @@ TEST(NaiveView, AccidentsAreNotGeneralAndDoublesAre) {
     const Scene scene(each.soup);
     const NaiveViewer viewer(scene);
     Random random(++seed);
-    if (seed % 4 != 0) continue;
+    if (seed % 8 != 0) continue;
     const NaiveEye any{
         Viewpoint::Kind::Eye,
         exact(Point(random.uniform(), random.uniform(), 9 + random.uniform()))};
@@ -266,8 +266,8 @@ TEST(NaiveView, AccidentsAreNotGeneralAndDoublesAre) {
       }
     }
   }
-  EXPECT_GT(general, 10);
-  EXPECT_GT(not_general, 10);
+  EXPECT_GT(general, 5);
+  EXPECT_GT(not_general, 5);
 }
 
 /// Faces that a ray meets first in their inside; edge-on ones count as air.

@@ -314,14 +314,12 @@ std::vector<std::string> differences(const NaiveEye& eye, const NaiveView& naive
   return Comparison(eye, naive, view).run();
 }
 
-std::vector<std::string> view_differences(const PolygonSoup& soup, const NaiveEye& eye,
-                                          bool general) {
+std::vector<std::string> SceneComparison::differences(const NaiveEye& eye,
+                                                      bool general) const {
   try {
-    const Scene scene(soup);
-    const NaiveViewer viewer(scene);
-    const PointView view = PointViewIndex(scene).view(viewpoint_of(eye));
-    std::vector<std::string> result = differences(eye, viewer.view(eye), view);
-    if (general && view.general != viewer.general(eye)) {
+    const PointView view = index_.view(viewpoint_of(eye));
+    std::vector<std::string> result = testing::differences(eye, viewer_.view(eye), view);
+    if (general && view.general != viewer_.general(eye)) {
       result.push_back(view.general ? "general, naive not"
                                     : "not general, naive general");
     }
@@ -335,7 +333,9 @@ PolygonSoup smallest_differing(const PolygonSoup& soup, const NaiveEye& eye,
                                bool general) {
   PolygonSoup best = soup;
   const auto differs = [&](const PolygonSoup& s) {
-    return !s.polygons.empty() && !view_differences(s, eye, general).empty();
+    if (s.polygons.empty()) return false;
+    const Scene scene(s);
+    return !SceneComparison(scene).differences(eye, general).empty();
   };
   // Groups first: a solid without one face is a sheet, and another case.
   for (std::size_t g = 0; g < best.groups.size();) {
@@ -361,20 +361,19 @@ PolygonSoup smallest_differing(const PolygonSoup& soup, const NaiveEye& eye,
   return best;
 }
 
-std::vector<std::string> structure_differences(const Scene& scene,
-                                               const std::vector<NaiveEye>& eyes) {
-  const NaiveViewer viewer(scene);
-  const PointViewIndex index(scene);
+std::vector<std::string> SceneComparison::structure_differences(
+    const std::vector<NaiveEye>& eyes) const {
   std::vector<std::string> result;
   Random random(eyes.size());
   for (const NaiveEye& eye : eyes) {
     NaiveEye next = eye;
     for (Rational& x : next.at) x += Rational(random.integer(-64, 64), 512);
     if (eye.kind == Viewpoint::Kind::Direction && is_zero(next.at)) continue;
-    const PointView a = index.view(viewpoint_of(eye)), b = index.view(viewpoint_of(next));
+    const PointView a = index_.view(viewpoint_of(eye));
+    const PointView b = index_.view(viewpoint_of(next));
     if (!a.general || !b.general) continue;
     const bool equal = a.structure == b.structure;
-    if (equal == (viewer.view(eye).structure == viewer.view(next).structure)) continue;
+    if (equal == (viewer_.view(eye).structure == viewer_.view(next).structure)) continue;
     result.push_back(std::string(equal ? "equal" : "different") +
                      " structures, naive otherwise: " + report({}, eye, {}) + "and " +
                      report({}, next, {}));
@@ -409,19 +408,22 @@ std::vector<std::string> compare_views(const ViewRun& run) {
   std::map<std::string, int> told;
   for (const ViewScene& each : view_scenes()) {
     const Scene scene(each.soup);
+    const SceneComparison comparison(scene);
     const std::vector<NaiveEye> eyes = view_eyes(scene, seed++, run.eyes);
     for (const NaiveEye& eye : eyes) {
       if (!run.on_scene && lies_on(scene, eye)) continue;
-      if (view_differences(each.soup, eye, run.general).empty()) continue;
+      if (comparison.differences(eye, run.general).empty()) continue;
       const PolygonSoup soup = smallest_differing(each.soup, eye, run.general);
-      const std::vector<std::string> found = view_differences(soup, eye, run.general);
+      const Scene small(soup);
+      const std::vector<std::string> found =
+          SceneComparison(small).differences(eye, run.general);
       if (++told[signature(found[0])] > 2) continue;
       result.push_back(each.name + "\n" + report(soup, eye, found));
       if (static_cast<int>(result.size()) >= run.most_reports) return result;
     }
     if (!run.general) continue;
-    for (const std::string& pair : structure_differences(scene, eyes)) {
-      result.push_back(each.name + " " + pair);
+    for (const std::string& pair : comparison.structure_differences(eyes)) {
+      if (++told["structures"] <= 5) result.push_back(each.name + " " + pair);
     }
   }
   return result;

@@ -20,21 +20,28 @@ namespace sightline::testing {
                                                    const NaiveView& naive,
                                                    const PointView& view);
 
-/// Both views of the scene, compared; `general` too, at five times the cost, if asked.
-/// A std::logic_error or InvalidInput of either side is a difference.
-[[nodiscard]] std::vector<std::string> view_differences(const PolygonSoup& soup,
-                                                        const NaiveEye& eye,
-                                                        bool general);
+/// Both views of one scene.  Keeps a reference to it.
+class SceneComparison {
+ public:
+  explicit SceneComparison(const Scene& scene) : viewer_(scene), index_(scene) {}
+  /// `general` too, at five times the cost, if asked.  An exception of either side is a
+  /// difference.
+  [[nodiscard]] std::vector<std::string> differences(const NaiveEye& eye,
+                                                     bool general) const;
+  /// For each eye and one near it: one side says that their labelled structures are
+  /// equal, the other that they are not.
+  [[nodiscard]] std::vector<std::string> structure_differences(
+      const std::vector<NaiveEye>& eyes) const;
+
+ private:
+  NaiveViewer viewer_;
+  PointViewIndex index_;
+};
 
 /// The scene with as many groups and polygons left out as may be, so that there still are
 /// differences.
 [[nodiscard]] PolygonSoup smallest_differing(const PolygonSoup& soup, const NaiveEye& eye,
                                              bool general);
-
-/// Pairs of eyes near each other, of which one side says that the labelled structures are
-/// equal and the other that they are not; a line each.
-[[nodiscard]] std::vector<std::string> structure_differences(
-    const Scene& scene, const std::vector<NaiveEye>& eyes);
 
 struct ViewRun {
   int eyes;              ///< a scene
