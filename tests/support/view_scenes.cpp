@@ -249,6 +249,10 @@ std::vector<ViewScene> view_scenes() {
     add_seeds(sightline::testing::name(crowd), 4,
               [&](std::uint64_t s) { return crowded_scene(crowd, s); });
   }
+  add_seeds("room of triangles", 2,
+            [](std::uint64_t s) { return cut_into_triangles(room(s + 20)); });
+  add_seeds("larger city", 2, [](std::uint64_t s) { return grid_city(s, 96); });
+  add_seeds("larger crowd", 2, [](std::uint64_t s) { return random_boxes(s, 16); });
   return result;
 }
 

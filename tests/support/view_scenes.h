@@ -16,7 +16,7 @@ struct ViewScene {
   PolygonSoup soup;
 };
 
-/// 97 scenes of 10 to 100 faces, the same on every machine: polytopes in general
+/// 103 scenes of 10 to 100 faces, the same on every machine: polytopes in general
 /// position, boxes on integer grids, touching and flush ones, rooms with furniture,
 /// sheets that cross, frames, cuts into triangles, facets that coincide.
 [[nodiscard]] std::vector<ViewScene> view_scenes();
