@@ -230,7 +230,9 @@ bool GraphBuilder::try_link(int edge, int weight, const PictureTree& tree,
     const long double off = 8 * (p.error() + q.error() + start.error() + 0x1p-60L);
     const long double size = std::abs(a) + std::abs(b);
     crossings.push_back({from == Sign::Positive ? 2 * e : 2 * e + 1,
-                         std::abs(a) / size, size > 4 * off ? 4 * off / size : 1, {}});
+                         std::abs(a) / size,
+                         size > 4 * off ? 4 * off / size : 1,
+                         {}});
   });
   if (!generic) return false;
   const auto exact_at = [&](Crossing& c) -> const Rational& {
