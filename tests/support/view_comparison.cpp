@@ -464,7 +464,7 @@ std::vector<std::string> compare_views(const ViewRun& run) {
   std::vector<std::string> result;
   std::uint64_t seed = run.seed;
   std::map<std::string, int> told;
-  for (const ViewScene& each : view_scenes()) {
+  for (const ViewScene& each : run.large ? large_view_scenes() : view_scenes()) {
     if (++seed % run.every != 0) continue;
     const Scene scene(each.soup);
     const SceneComparison comparison(scene);
@@ -472,7 +472,9 @@ std::vector<std::string> compare_views(const ViewRun& run) {
     for (const NaiveEye& eye : eyes) {
       if (!run.on_scene && lies_on(scene, eye)) continue;
       if (comparison.differences(eye, run.general).empty()) continue;
-      const PolygonSoup soup = smallest_differing(each.soup, eye, run.general);
+      // Smaller than large, a scene would be another case.
+      const PolygonSoup soup =
+          run.large ? each.soup : smallest_differing(each.soup, eye, run.general);
       const Scene small(soup);
       const std::vector<std::string> found =
           SceneComparison(small).differences(eye, run.general);
