@@ -20,6 +20,7 @@
 
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "linespace/request.h"
 #include "linespace/scene.h"
@@ -51,6 +52,12 @@ class PointViewIndex {
   [[nodiscard]] PointView view_through(const Viewpoint& eye,
                                        std::span<const Point> window,
                                        const Request& request = {}) const;
+
+  /// Seams that are seen, and what is hidden of the edges of the scene; edges seen end-on
+  /// are left out.  Costs a view, and for the hidden some microseconds for each edge.
+  [[nodiscard]] std::vector<FurtherLine> further_lines(const Viewpoint& eye, bool seams,
+                                                       bool hidden,
+                                                       const Request& request = {}) const;
 
   /// The patch of a facet as it is seen from its front or its back: facets, of all
   /// objects, that lie in one plane, face alike and hang together have one number.

@@ -102,6 +102,23 @@ std::vector<std::array<LineCut, 2>> LineViewer::parts_in_sight(int line) {
   return parts;
 }
 
+std::vector<std::array<LineCut, 2>> LineViewer::hidden_parts(int line) {
+  std::vector<std::array<LineCut, 2>> parts;
+  if (eye_->end_on(line)) return parts;
+  const LineCuts cuts(*eye_, line);
+  if (!cover(line, cuts)) return {{start_cut(), finish_cut()}};
+  const Scan scan = scan_covers(line, cuts);
+  for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
+    if (scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0) continue;
+    if (!parts.empty() && cuts.compare(parts.back()[1], scan.at[i]) == 0) {
+      parts.back()[1] = scan.at[i + 1];
+    } else {
+      parts.push_back({scan.at[i], scan.at[i + 1]});
+    }
+  }
+  return parts;
+}
+
 // A corner that is seen on a line, but does not lie on it.
 void LineViewer::suspect_corner(int line, int corner) {
   const auto [a, b] = eye_->scene().lines()[line].ends;

@@ -57,6 +57,9 @@ class LineViewer {
   /// bound nothing that is seen.
   [[nodiscard]] std::vector<std::array<LineCut, 2>> parts_in_sight(int line);
 
+  /// Parts of the line that nearer faces hide on both sides.
+  [[nodiscard]] std::vector<std::array<LineCut, 2>> hidden_parts(int line);
+
   /// All accidents of corners and lines that views of the lines asked so far came across,
   /// and perhaps others: every point where a corner is seen on a nearer or farther line,
   /// or where two nearer lines cross on a farther one.

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "linespace/picture/view_scene.h"
+#include "linespace/view/further_lines.h"
 #include "linespace/view/line_view.h"
 #include "linespace/view/possibly_seen.h"
 #include "linespace/view/view_accidents.h"
@@ -51,24 +52,40 @@ std::vector<int> lines_to_ask(const ViewScene& scene, const EyeStar& star,
   return lines;
 }
 
+// The graph of all that is seen, and what it was made with.
+struct Sight {
+  Sight(const ViewScene& scene, const Viewpoint& eye, Stage& stage)
+      : space(scene, eye),
+        seen(possibly_seen(space)),
+        star(space),
+        window(space),
+        viewer(space, star, window, seen) {
+    std::vector<LinePiece> pieces;
+    const std::vector<int> lines = lines_to_ask(scene, star, seen);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      stage.at(i, lines.size());
+      viewer.view(lines[i], pieces);
+    }
+    graph = join_pieces(space, star, pieces, seen);
+    stage.check(0.8);
+  }
+
+  EyeSpace space;
+  std::vector<std::uint8_t> seen;
+  EyeStar star;
+  Window window;
+  LineViewer viewer;
+  ViewGraph graph;
+};
+
 PointView seen_from(const ViewScene& scene, const Viewpoint& eye,
                     const Request& request) {
   const PrecisionScope precision(request.precision);
   Stage stage(request, "view");
-  const EyeSpace space(scene, eye);
-
-  const std::vector<std::uint8_t> seen = possibly_seen(space);
-  std::vector<LinePiece> pieces;
-  const EyeStar star(space);
-  const Window window(space);
-  LineViewer viewer(space, star, window, seen);
-  const std::vector<int> lines = lines_to_ask(scene, star, seen);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    stage.at(i, lines.size());
-    viewer.view(lines[i], pieces);
-  }
-  const ViewGraph graph = join_pieces(space, star, pieces, seen);
-  stage.check(0.8);
+  Sight sight(scene, eye, stage);
+  const EyeSpace& space = sight.space;
+  const EyeStar& star = sight.star;
+  const ViewGraph& graph = sight.graph;
   ViewMap map = make_map(space, graph);
 
   PointView view;
@@ -78,7 +95,7 @@ PointView seen_from(const ViewScene& scene, const Viewpoint& eye,
   std::vector<bool> background;
   for (const MapRegion& r : map.regions) background.push_back(r.patches.empty());
   const ViewMeasures measures = measure(space, graph, map.region_of, background);
-  view.accidents = find_accidents(space, window, viewer, seen);
+  view.accidents = find_accidents(space, sight.window, sight.viewer, sight.seen);
   if (!star.faces().empty()) {
     const GeneratorKind kind = star.place() == EyePlace::Corner ? GeneratorKind::Vertex
                                : star.place() == EyePlace::Edge ? GeneratorKind::Edge
@@ -124,6 +141,23 @@ PointView PointViewIndex::view_through(const Viewpoint& eye,
     }
   }
   return seen_from(impl_->scene.with_window(window), eye, request);
+}
+
+std::vector<FurtherLine> PointViewIndex::further_lines(const Viewpoint& eye, bool seams,
+                                                       bool hidden,
+                                                       const Request& request) const {
+  const PrecisionScope precision(request.precision);
+  Stage stage(request, "further lines");
+  const Sight sight(impl_->scene, eye, stage);
+  std::vector<FurtherLine> lines;
+  if (seams) {
+    lines = seam_lines(sight.space, sight.graph, make_map(sight.space, sight.graph));
+  }
+  if (hidden) {
+    const auto more = hidden_lines(sight.space, sight.star);
+    lines.insert(lines.end(), more.begin(), more.end());
+  }
+  return lines;
 }
 
 }  // namespace sightline

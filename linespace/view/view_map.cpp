@@ -101,7 +101,12 @@ void MapMaker::find_seams() {
   for (int h = 0; h < static_cast<int>(graph_->next.size()); ++h) {
     if (seam_[h / 2] == 0) leaving_[graph_->origin(h)].push_back(h);
   }
-  map_.seams = static_cast<int>(runs(true).size());
+  for (const Run& run : runs(true)) {
+    map_.seam_pieces.push_back(
+        {{graph_->origin(run.front()), graph_->origin(run.back() ^ 1)},
+         graph_->edges[run.front() / 2].line});
+  }
+  map_.seams = static_cast<int>(map_.seam_pieces.size());
 }
 
 // The half-edge that goes on from this one's end along the same line in space, with the

@@ -88,6 +88,27 @@ TEST(PointView, BoxInARoom) {
   EXPECT_NEAR(sum, 4 * std::numbers::pi, 1e-12);
 }
 
+TEST(FurtherLines, HiddenEdgesOfACubeAndASeam) {
+  // The three edges at the far corner.
+  const Scene cube(testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}}));
+  const auto hidden =
+      PointViewIndex(cube).further_lines(eye_far_along({1, 2, 3}), true, true);
+  ASSERT_EQ(hidden.size(), 3U);
+  for (const FurtherLine& line : hidden) {
+    EXPECT_EQ(line.kind, FurtherLine::Kind::Hidden);
+    EXPECT_NEAR((line.segment[0] - line.segment[1]).norm(), 1, 1e-15);
+    EXPECT_EQ(std::min(line.segment[0].norm(), line.segment[1].norm()), 0);
+  }
+  // Two boxes side by side: their tops and their fronts each are one patch.
+  const Scene two(testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}, {{1, 0, 0}, {2, 1, 1}}}));
+  const auto seams = PointViewIndex(two).further_lines(eye_at({0.3, -5, 4}), true, false);
+  ASSERT_EQ(seams.size(), 2U);
+  for (const FurtherLine& line : seams) {
+    EXPECT_EQ(line.kind, FurtherLine::Kind::Seam);
+    for (const Point& p : line.segment) EXPECT_EQ(p[0], 1);
+  }
+}
+
 // ---- invariance
 // --------------------------------------------------------------------------
 
