@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "linespace/picture/eye_space.h"
+#include "linespace/picture/eye_star.h"
 #include "linespace/picture/line_cut.h"
+#include "linespace/picture/view_window.h"
 #include "linespace/space/bvh.h"
-#include "linespace/view/eye_star.h"
-#include "linespace/view/view_window.h"
 
 namespace sightline::internal {
 

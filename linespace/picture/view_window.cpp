@@ -1,4 +1,4 @@
-#include "linespace/view/view_window.h"
+#include "linespace/picture/view_window.h"
 
 #include <algorithm>
 #include <utility>
