@@ -3,10 +3,12 @@
 
   python3 docs/pictures/point_view.py build/default/bin/sightline           # all, anew
   python3 docs/pictures/point_view.py build/default/bin/sightline --check   # as they are?
+  python3 docs/pictures/point_view.py build/default/bin/sightline --house FILE.ifc
 
 The drawings are those of `look`, made fit for a small size: fewer digits, thicker lines,
 dots coloured by the kind of vertex.  --check compares them with the files here, numbers
-to half a unit of 1000, and exits with 1 where one differs.
+to half a unit of 1000, and exits with 1 where one differs.  --house draws the house,
+AC14-FZK-Haus.ifc of assimp-testmodels, instead; these pictures are not checked.
 """
 
 import pathlib
@@ -60,6 +62,19 @@ CASES = {
     "hidden_accident": ("hidden_three_edges", ALONG_Y),
 }
 
+# The room without what stands in the way of a plan, of an elevation.
+ROOM = {
+    "room_plan": (["ceiling"], ["--direction=0,1,0", "--up", "0,0,-1"]),
+    "room_elevation": (["wall_front"], ["--direction=0,0,1", "--up", "0,1,0"]),
+    "room_perspective": ([], ["--from=5,1.6,4", "--up", "0,1,0", "--towards", "2,0.9,1.5",
+                              "--fov=80"]),
+}
+HOUSE = {
+    "house_plan": ["--direction=0,0,1"],
+    "house_elevation": ["--direction=0,-1,0"],
+    "house_perspective": ["--from=24,-13,5", "--towards=6,5,1", "--fov=44"],
+}
+
 STYLE = """  circle { stroke: #16181f; stroke-width: 3; }
   .t { fill: #ffffff; } .touch { fill: #8a5cc2; } .accident { fill: #e02020; }
 """
@@ -71,8 +86,10 @@ def rounded(text, digits):
                   text)
 
 
-def made_small(svg, size):
+def made_small(svg, size, dots):
     """The drawing at a longer side of `size`, with lines and dots to be seen there."""
+    if not dots:
+        svg = re.sub(r"<circle [^\n]*\n", "", svg)
     scale = 1000 / size
     width, height = map(float, re.search(r'viewBox="0 0 (\S+) (\S+)"', svg).groups())
     head, body = svg.split("</style>", 1)
@@ -84,12 +101,42 @@ def made_small(svg, size):
     return rounded(head + STYLE + "</style>" + body, 1)
 
 
-def draw(program, scene, options, size):
+def draw(program, scene, options, size=190, dots=True):
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "view.svg"
         subprocess.run([program, "look", str(scene), *options, "--svg", str(file)],
                        check=True, stdout=subprocess.DEVNULL)
-        return made_small(file.read_text(encoding="utf-8"), size)
+        return made_small(file.read_text(encoding="utf-8"), size, dots)
+
+
+def room_without(objects, file):
+    """Writes the built-in room without these objects."""
+    kept = True
+    with open(SCENES / "room.obj", encoding="utf-8") as room, \
+            open(file, "w", encoding="utf-8") as out:
+        for line in room:
+            if line.startswith("o "):
+                kept = line.split()[1] not in objects
+            if kept or not line.startswith("f "):
+                out.write(line)
+
+
+def pictures(program):
+    """Name and SVG of every picture but those of the house."""
+    for name, (scene, options) in CASES.items():
+        yield f"view_{name}", draw(program, VIEWS / f"{scene}.obj", options)
+    with tempfile.TemporaryDirectory() as folder:
+        scene = pathlib.Path(folder) / "room.obj"
+        for name, (objects, options) in ROOM.items():
+            room_without(objects, scene)
+            yield f"look_{name}", draw(program, scene, options, 400, dots=False)
+
+
+def pictures_of_house(program, file):
+    for name, options in HOUSE.items():
+        svg = draw(program, file, options, 400, dots=False)
+        svg = re.sub(r"<title>[^<]*</title>", "", svg)  # the file would be large
+        yield f"look_{name}", re.sub(r' data-[a-z]+="[^"]*"', "", svg)
 
 
 def alike(a, b):
@@ -102,12 +149,15 @@ def alike(a, b):
 
 
 def main():
-    program, check = sys.argv[1], sys.argv[2:] == ["--check"]
+    program, options = sys.argv[1], sys.argv[2:]
+    if options[:1] == ["--house"]:
+        drawn = pictures_of_house(program, options[1])
+    else:
+        drawn = pictures(program)
     stale = []
-    for name, (scene, options) in CASES.items():
-        file = HERE / f"view_{name}.svg"
-        svg = draw(program, VIEWS / f"{scene}.obj", options, 190)
-        if not check:
+    for name, svg in drawn:
+        file = HERE / f"{name}.svg"
+        if options != ["--check"]:
             file.write_text(svg, encoding="utf-8")
         elif not file.exists() or not alike(svg, file.read_text(encoding="utf-8")):
             stale.append(file.name)

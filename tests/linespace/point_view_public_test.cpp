@@ -122,6 +122,8 @@ TEST(PointViewPublic, MatplotlibFieldOfBars) {
       EXPECT_NEAR(area(Right), i < 7 ? 0 : (7 + j) / 3., 1e-13) << i << ' ' << j;
     }
   }
+  // Seams are in the row of 7 fronts and in the column of 8 right sides.
+  EXPECT_EQ(view.seams, 6 + 7);
   // 63 tops, 63 fronts, 8 right sides; nothing of any other side.
   EXPECT_EQ(view.facets.size(), 63U + 63 + 8);
   EXPECT_EQ(view.background_pieces, 1);
