@@ -56,6 +56,7 @@ CASES = {
     "eye_near_a_face": ("box_below_sheet",
                         ["--from=1,1,1/16", "--towards=1,2,0.2", "--fov=120"]),
     "accident_corner_on_edge": ("corner_on_edge", ["--from=0,-2,1"]),
+    "accident_corner_half_hidden": ("corner_half_hidden", ["--from=0,-2,1"]),
     "accident_corner_on_corner": ("corner_on_corner", ["--from=1,-2,1"]),
     "accident_three_edges": ("three_edges", ALONG_Y),
     "accident_along_edge": ("two_sheets", ["--from=0,-1,0"]),

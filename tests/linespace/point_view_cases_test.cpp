@@ -182,8 +182,13 @@ TEST(PointViewCases, CrackOfNoWidth) {
                                      .background_pieces = 1}));
   EXPECT_EQ(edge_counts(view), (EdgeCounts{.boundary = 9}));
   EXPECT_EQ(view.facets.size(), 2U);
-  EXPECT_NEAR(crack.seen_of(view, 0), 4, 1e-14);
-  EXPECT_NEAR(crack.seen_of(view, 1), 12, 1e-14);
+  EXPECT_NEAR(crack.seen_of(view, 0), 12, 1e-14);
+  EXPECT_NEAR(crack.seen_of(view, 1), 4, 1e-14);
+  // Where the sides overlap, the edge is the near one's.
+  const int near = edge_generator(crack.scene, {0, 0, 0}, {0, 0, 2}).id;
+  EXPECT_EQ(
+      std::ranges::count(view.edges, near, [](const MapEdge& e) { return e.line.edge; }),
+      1);
   EXPECT_FALSE(view.general);
 
   // Seen a little from the right the crack opens: the sheet behind, 1 high, shows as
@@ -409,6 +414,12 @@ TEST(PointViewCases, FrameWithAHole) {
                                      .components = 2,
                                      .background_pieces = 1}));
   EXPECT_EQ(edge_counts(view), (EdgeCounts{.boundary = 8}));
+  for (const MapRegion& region : view.regions) {
+    // The frame has an outer and an inner boundary.
+    const bool is_frame = region.facets == std::vector{facet_of(frame.scene, 0)};
+    EXPECT_EQ(region.boundary.size(), is_frame ? 2U : 1U);
+    for (const std::vector<int>& walk : region.boundary) EXPECT_EQ(walk.size(), 4U);
+  }
   const double hole = 4 * rectangle_angle(0.5, 0.5, 1);
   EXPECT_NEAR(frame.seen_of(view, 0), 4 * rectangle_angle(1.5, 1.5, 1) - hole, 1e-14);
   EXPECT_NEAR(frame.seen_of(view, 4), hole, 1e-14);
@@ -559,6 +570,24 @@ TEST(PointViewCases, AccidentCornerOnEdge) {
   const PointView below = scene.from({0, -2, 1 - kSmall});
   EXPECT_EQ(counts(below).t_vertices, 2);
   EXPECT_TRUE(below.general);
+}
+
+// A corner on the same side, of which one side comes out above the sheet and the other is
+// hidden, is an accident vertex and no T; there is one of these farther to the right.
+TEST(PointViewCases, AccidentCornerHalfHidden) {
+  const Case scene("corner_half_hidden");
+  const PointView view = scene.from({0, -2, 1});
+  EXPECT_EQ(counts(view), (MapCounts{.corners = 5,
+                                     .t_vertices = 1,
+                                     .accident_vertices = 1,
+                                     .edges = 8,
+                                     .regions = 3,
+                                     .components = 1,
+                                     .background_pieces = 1}));
+  ASSERT_EQ(view.accidents.size(), 1U);
+  EXPECT_TRUE(tells(view, {AccidentKind::CornerOnEdge,
+                           {corner_generator(scene.scene, {0, 2, -1}),
+                            edge_generator(scene.scene, {-2, 0, 0}, {2, 0, 0})}}));
 }
 
 TEST(PointViewCases, AccidentCornerOnCorner) {

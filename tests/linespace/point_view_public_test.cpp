@@ -24,6 +24,7 @@ namespace {
 using testing::add_box;
 using testing::counts;
 using testing::edge_counts;
+using testing::edge_generator;
 using testing::EdgeCounts;
 using testing::MapCounts;
 using testing::measure;
@@ -154,6 +155,16 @@ TEST(PointViewPublic, ThreeJsLongBoxBeforeAnother) {
                                      .components = 1,
                                      .background_pieces = 1}));
   EXPECT_EQ(edge_counts(view), (EdgeCounts{.silhouette = 9 + 4, .crease = 3 + 3}));
+  const int rear = edge_generator(scene, {0, 1, 1}, {20, 1, 1}).id;
+  std::set<int> upright, right;
+  for (const MapVertex& v : view.vertices) {
+    if (v.kind != MapVertexKind::T) continue;
+    EXPECT_EQ(v.near.edge, rear);
+    upright.insert(v.far.edge);
+  }
+  for (const Point& foot : {Point(17, 2, 0), Point(18, 2, 0), Point(18, 2.5, 0)})
+    right.insert(edge_generator(scene, foot, foot + Point(0, 0, 2)).id);
+  EXPECT_EQ(upright, right);
   EXPECT_TRUE(view.general);
 }
 
