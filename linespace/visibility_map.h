@@ -150,6 +150,8 @@ struct PointView {
 
   /// The labelled structure is the same for all eyes near by.
   bool general;
+  /// Each with what it is made of.  Where many things are seen in one, as in a plane of many
+  /// facets, which of them are told together may depend on the scene's order.
   std::vector<Accident> accidents;
   /// Equal for two views of one scene iff their labelled structures are; empty where the
   /// view is not general.

@@ -22,6 +22,7 @@ LineViewer::LineViewer(const EyeSpace& eye, const EyeStar& star,
 bool LineViewer::cover(int line, const LineCuts& cuts) {
   find_faces(line);
   covers_.clear();
+  along_ = false;
   for (const int face : faces_) {
     if (auto own = own_side(line, face)) {
       covers_.push_back(*own);
@@ -42,6 +43,8 @@ void LineViewer::view(int line, std::vector<LinePiece>& pieces) {
   const Scan scan = scan_covers(line, cuts);
   const std::size_t first = pieces.size();
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
+    const bool in_sight = scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0;
+    if (along_ && in_sight) suspects_.push_back({-1, line, scan.at[i], scan.at[i + 1]});
     auto next = piece(line, scan, i);
     if (!next) continue;
     if (pieces.size() > first && pieces.back().left == next->left &&
@@ -79,22 +82,23 @@ std::optional<LinePiece> LineViewer::piece(int line, const Scan& scan,
   return piece;
 }
 
-std::optional<std::array<LineCut, 2>> LineViewer::part_in_sight(int line) {
-  if (eye_->end_on(line)) return std::nullopt;
+std::vector<std::array<LineCut, 2>> LineViewer::parts_in_sight(int line) {
+  std::vector<std::array<LineCut, 2>> parts;
+  if (eye_->end_on(line)) return parts;
   const LineCuts cuts(*eye_, line);
-  if (!cover(line, cuts)) return std::nullopt;
+  if (!cover(line, cuts)) return parts;
   const Scan scan = scan_covers(line, cuts);
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
     if (scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0)
-      return std::array{scan.at[i], scan.at[i + 1]};
+      parts.push_back({scan.at[i], scan.at[i + 1]});
   }
-  return std::nullopt;
+  return parts;
 }
 
 // A corner that is seen on a line, but does not lie on it.
 void LineViewer::suspect_corner(int line, int corner) {
   const auto [a, b] = eye_->scene().lines()[line].ends;
-  if (!eye_->scene().in_line(a, b, corner)) suspects_.push_back({corner, line, {}});
+  if (!eye_->scene().in_line(a, b, corner)) suspects_.push_back({corner, line, {}, {}});
 }
 
 // Faces that sight may meet on its way to the line.
@@ -168,7 +172,10 @@ std::optional<LineViewer::Cover> LineViewer::overlap(int line, int face,
     const int line_there = own >= 0 ? own : line;
     if (at_a == Sign::Zero && before_a == Sign::Negative) suspect_corner(line_there, a);
     if (at_b == Sign::Zero && before_b == Sign::Negative) suspect_corner(line_there, b);
-    if (at_a == Sign::Zero && at_b == Sign::Zero) continue;
+    if (at_a == Sign::Zero && at_b == Sign::Zero) {
+      along_ |= cover.hides && own >= 0;
+      continue;
+    }
     if (at_a != Sign::Positive && at_b != Sign::Positive) return std::nullopt;
     if (at_a != Sign::Negative && at_b != Sign::Negative) continue;
     // Named by the whole line, so that faces beside each other give the same cut.
@@ -242,7 +249,7 @@ LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
                           eye_->scene().in_line(x.p, x.q, y.q);
     const bool sides = x.kind == LineCut::Kind::Side || y.kind == LineCut::Kind::Side;
     if (sides && !one_line)
-      suspects_.push_back({-1, line, x.kind == LineCut::Kind::Side ? x : y});
+      suspects_.push_back({-1, line, x.kind == LineCut::Kind::Side ? x : y, {}});
     return true;
   };
   scan.at.erase(std::unique(scan.at.begin(), scan.at.end(), same), scan.at.end());

@@ -32,11 +32,13 @@ struct LinePiece {
   SeenBeside left, right;  ///< going from `from` to `to`
 };
 
-/// Where, in the picture, something on the line may coincide with something nearer.
+/// Where, in the picture, something on a line may coincide with something nearer: a point
+/// of the scene, or a position on the line, or a stretch of it.
 struct Suspect {
-  int point;  ///< of the scene; -1: the position on the line
+  int point;  ///< -1: a position or a stretch
   int line;
-  LineCut cut;
+  LineCut at;
+  std::optional<LineCut> to;  ///< the end of a stretch
 };
 
 /// Finds the pieces of lines.  Keeps scratch: one for a thread.
@@ -49,9 +51,9 @@ class LineViewer {
   /// Appends the pieces of a line to `pieces`, from its first end to its second.
   void view(int line, std::vector<LinePiece>& pieces);
 
-  /// Some part of the line that nothing nearer hides, at least on one side; it may still
+  /// Parts of the line that nothing nearer hides, at least on one side; they may still
   /// bound nothing that is seen.
-  [[nodiscard]] std::optional<std::array<LineCut, 2>> part_in_sight(int line);
+  [[nodiscard]] std::vector<std::array<LineCut, 2>> parts_in_sight(int line);
 
   /// All accidents of corners and lines that views of the lines asked so far came across,
   /// and perhaps others: every point where a corner is seen on a nearer or farther line,
@@ -95,6 +97,7 @@ class LineViewer {
   std::vector<int> faces_;
   std::vector<Cover> covers_;
   std::vector<Suspect> suspects_;
+  bool along_ = false;  // some nearer side is seen along the line
 };
 
 }  // namespace sightline::internal

@@ -156,14 +156,21 @@ void Joiner::split() {
 }
 
 // Lines that coincide in space, sides of objects that touch, show the same piece twice: a
-// crossing of facets stays, else the smallest line number.
+// crossing of facets stays, else the smallest line number.  From an eye on a facet sides
+// of it may be seen in one: the nearest stays.
 void Joiner::drop_doubles() {
   const auto ends = [](const JoinedEdge& e) { return std::minmax(e.ends[0], e.ends[1]); };
+  const auto crosses = [&](const JoinedEdge& e) {
+    return eye_->scene().lines()[e.line].crossing[0] >= 0;
+  };
+  const auto nearness = [&](const JoinedEdge& e) {
+    const ExactPoint &u = points_[e.ends[0]].exact(), &v = points_[e.ends[1]].exact();
+    return LineCuts(*eye_, e.line).nearness({u[0] + v[0], u[1] + v[1], u[2] + v[2]});
+  };
   std::ranges::stable_sort(edges_, [&](const JoinedEdge& x, const JoinedEdge& y) {
     if (ends(x) != ends(y)) return ends(x) < ends(y);
-    const bool crosses = eye_->scene().lines()[x.line].crossing[0] >= 0;
-    const bool other = eye_->scene().lines()[y.line].crossing[0] >= 0;
-    return crosses != other ? crosses : x.line < y.line;
+    if (!eye_->scene().on_one_line(x.line, y.line)) return nearness(y) < nearness(x);
+    return crosses(x) != crosses(y) ? crosses(x) : x.line < y.line;
   });
   const auto doubles = std::ranges::unique(
       edges_,

@@ -13,7 +13,6 @@ namespace {
 // A line of the scene that passes a point of the picture, as seen there.
 struct Passing {
   int line;
-  Rational nearness;
   bool ahead, behind;  // it goes on towards its second end, its first end
 };
 
@@ -29,7 +28,7 @@ class PointInspector {
                  PicturePoint at)
       : eye_(&eye), possibly_seen_(possibly_seen), at_(std::move(at)) {}
 
-  std::optional<Accident> inspect();
+  std::optional<Accident> inspect(bool stretch);
 
  private:
   void find_lines();
@@ -37,14 +36,21 @@ class PointInspector {
   void leave_out_hidden();
   void leave_out_seams();
   [[nodiscard]] bool straight(const Group& group) const;
+  [[nodiscard]] bool in_one_stretch() const;
   [[nodiscard]] int corner(const Group& group) const;
   [[nodiscard]] std::vector<ExactPoint> ways(const Passing& p) const;
+  [[nodiscard]] std::vector<PictureRay> rays(std::span<const Passing> lines) const;
   [[nodiscard]] Accident name() const;
 
   const EyeSpace* eye_;
   std::span<const std::uint8_t> possibly_seen_;
   PicturePoint at_;
-  std::vector<int> faces_;  // with the point in their closed picture
+  // A face with the point in its closed picture, and how near it is there.
+  struct FaceThere {
+    int face;
+    Rational nearness;
+  };
+  std::vector<FaceThere> faces_;  // the nearest first
   std::vector<Group> groups_;
 };
 
@@ -62,19 +68,14 @@ void PointInspector::add_line(int line) {
   if (eye_->end_on(line)) return;
   const PicturePoint p(*eye_, a), q(*eye_, b);
   if (orient(p, q, at_) != Sign::Zero) return;
-  // w = s u + t v, where m and n are t and s times u x v.
-  const ExactPoint &u = p.exact(), &v = q.exact(), &w = at_.exact();
-  const ExactPoint whole = exact_cross(u, v), m = exact_cross(u, w),
-                   n = exact_cross(w, v);
-  int i = 0;
-  while (i < 2 && whole[i] == 0) ++i;
-  const Rational t = m[i] / whole[i], s = n[i] / whole[i];
+  const LineCuts cuts(*eye_, line);
+  const auto [s, t] = cuts.shares(at_.exact());
   if (s < 0 || t < 0) return;
-  const Rational nearness = s * eye_->exact_height(a) + t * eye_->exact_height(b);
+  const Rational nearness = cuts.nearness(at_.exact());
   auto group = std::ranges::find(groups_, nearness, &Group::nearness);
   if (group == groups_.end()) group = groups_.insert(group, Group{nearness, {}});
   if (std::ranges::find(group->lines, line, &Passing::line) == group->lines.end())
-    group->lines.push_back({line, nearness, s > 0, t > 0});
+    group->lines.push_back({line, s > 0, t > 0});
 }
 
 void PointInspector::find_lines() {
@@ -89,70 +90,67 @@ void PointInspector::find_lines() {
                Sign::Negative;
     }
     if (!within) continue;
-    faces_.push_back(face);
+    faces_.push_back({face, Nearness(*eye_, face).at(at_.exact())});
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const int line = eye_->scene().line_of_side(face, static_cast<int>(k));
       if (line >= 0) add_line(line);
     }
     for (const int line : eye_->scene().crossings_of(face)) add_line(line);
   }
+  std::ranges::sort(faces_, [](const FaceThere& x, const FaceThere& y) {
+    return y.nearness < x.nearness;
+  });
+}
+
+// Just beside all passing lines, on either side and either way.
+std::vector<PictureRay> PointInspector::rays(std::span<const Passing> lines) const {
+  std::vector<PictureRay> found;
+  for (const Passing& p : lines) {
+    const auto [a, b] = eye_->scene().lines()[p.line].ends;
+    const ExactPoint n = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
+    for (const ExactPoint& way : ways(p)) {
+      found.push_back({at_, {way, n}});
+      found.push_back({at_, {way, {-n[0], -n[1], -n[2]}}});
+    }
+  }
+  return found;
 }
 
 // Of what is farther than all that is seen around the point, no eye near by sees
 // anything.
 void PointInspector::leave_out_hidden() {
-  std::vector<PictureRay> rays;
+  const FaceThere* farthest = nullptr;
   for (const Group& g : groups_) {
-    for (const Passing& p : g.lines) {
-      const auto [a, b] = eye_->scene().lines()[p.line].ends;
-      const ExactPoint n = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
-      for (const ExactPoint& way : ways(p)) {
-        rays.push_back({at_, {way, n}});
-        rays.push_back({at_, {way, {-n[0], -n[1], -n[2]}}});
-      }
+    for (const PictureRay& ray : rays(g.lines)) {
+      const auto seen = std::ranges::find_if(
+          faces_, [&](const FaceThere& f) { return contains(*eye_, f.face, ray); });
+      if (seen == faces_.end()) return;
+      if (farthest == nullptr || seen->nearness < farthest->nearness) farthest = &*seen;
     }
   }
-  std::optional<Rational> farthest;
-  for (const PictureRay& ray : rays) {
-    const auto seen = first_seen(*eye_, ray, possibly_seen_);
-    if (seen.empty()) return;
-    const Rational here = Nearness(*eye_, seen.front()).at(at_.exact());
-    if (!farthest || here < *farthest) farthest = here;
-  }
-  if (farthest)
-    std::erase_if(groups_, [&](const Group& g) { return g.nearness < *farthest; });
+  if (farthest != nullptr)
+    std::erase_if(groups_,
+                  [&](const Group& g) { return g.nearness < farthest->nearness; });
 }
 
 // Lines between faces of one patch, which cover all around the point, show nothing.
 void PointInspector::leave_out_seams() {
-  const auto only_seams = [&](const Group& g) {
+  const auto patch = [&](int f) {
+    return eye_->scene().patch(eye_->scene().scene().faces()[f].facet,
+                               eye_->front(f) == Sign::Positive);
+  };
+  std::erase_if(groups_, [&](const Group& g) {
     std::vector<int> faces;
-    for (const int f : faces_) {
-      if (Nearness(*eye_, f).at(at_.exact()) == g.nearness) faces.push_back(f);
+    for (const FaceThere& f : faces_) {
+      if (f.nearness == g.nearness) faces.push_back(f.face);
     }
-    const auto patch = [&](int f) {
-      return eye_->scene().patch(eye_->scene().scene().faces()[f].facet,
-                                 eye_->front(f) == Sign::Positive);
-    };
     for (const int f : faces) {
       if (patch(f) != patch(faces.front())) return false;
     }
-    for (const Passing& p : g.lines) {
-      const auto [a, b] = eye_->scene().lines()[p.line].ends;
-      const ExactPoint n = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
-      for (const ExactPoint& way : ways(p)) {
-        for (const ExactPoint& side : {n, ExactPoint{-n[0], -n[1], -n[2]}}) {
-          if (std::ranges::none_of(faces, [&](int f) {
-                return contains(*eye_, f, {at_, {way, side}});
-              })) {
-            return false;
-          }
-        }
-      }
-    }
-    return true;
-  };
-  std::erase_if(groups_, only_seams);
+    return std::ranges::all_of(rays(g.lines), [&](const PictureRay& ray) {
+      return std::ranges::any_of(faces, [&](int f) { return contains(*eye_, f, ray); });
+    });
+  });
 }
 
 // One line of space that goes straight on.
@@ -205,28 +203,44 @@ Accident PointInspector::name() const {
   std::ranges::sort(found.generators);
   found.generators.erase(std::ranges::unique(found.generators).begin(),
                          found.generators.end());
-  found.kind = corners > 1          ? AccidentKind::CornerOnCorner
-               : corners == 1       ? AccidentKind::CornerOnEdge
-               : groups_.size() > 2 ? AccidentKind::ThreeEdges
-                                    : AccidentKind::AlongEdge;
+  found.kind = corners > 1    ? AccidentKind::CornerOnCorner
+               : corners == 1 ? AccidentKind::CornerOnEdge
+                              : AccidentKind::ThreeEdges;
   return found;
 }
 
-std::optional<Accident> PointInspector::inspect() {
+// Of a point that some lines may share, or of one within a stretch that they may share.
+std::optional<Accident> PointInspector::inspect(bool stretch) {
   find_lines();
   if (groups_.size() < 2) return std::nullopt;
   leave_out_hidden();
   leave_out_seams();
   if (groups_.size() < 2) return std::nullopt;
-  if (groups_.size() == 2 && straight(groups_[0]) && straight(groups_[1])) {
-    const int line = groups_[0].lines.front().line;
-    const auto [a, b] = eye_->scene().lines()[line].ends;
-    const auto [c, d] = eye_->scene().lines()[groups_[1].lines.front().line].ends;
-    const bool along =
-        eye_->orient(a, b, c) == Sign::Zero && eye_->orient(a, b, d) == Sign::Zero;
-    if (!along) return std::nullopt;  // one passes behind the other
+  if (in_one_stretch()) {
+    if (!stretch) return std::nullopt;
+    // Lines that continue each other are named as one.
+    for (Group& g : groups_) {
+      g.lines = {{eye_->scene().whole_line(g.lines[0].line), true, true}};
+    }
+    Accident found = name();
+    found.kind = AccidentKind::AlongEdge;
+    return found;
   }
+  if (stretch) return std::nullopt;
+  // One edge that passes behind another.
+  if (groups_.size() == 2 && straight(groups_[0]) && straight(groups_[1]))
+    return std::nullopt;
   return name();
+}
+
+// All that passes here are lines that go straight on, one behind the other.
+bool PointInspector::in_one_stretch() const {
+  const auto [a, b] = eye_->scene().lines()[groups_[0].lines.front().line].ends;
+  return std::ranges::all_of(groups_, [&](const Group& g) {
+    const auto [c, d] = eye_->scene().lines()[g.lines.front().line].ends;
+    return straight(g) && eye_->orient(a, b, c) == Sign::Zero &&
+           eye_->orient(a, b, d) == Sign::Zero;
+  });
 }
 
 // Whether an eye near by would see a facet that is seen edge-on: does sight reach a point
@@ -298,6 +312,13 @@ class EdgeOnFace {
   int face_;
 };
 
+PicturePoint middle(const EyeSpace& eye, const Suspect& s) {
+  const LineCuts cuts(eye, s.line);
+  const auto [a, b] = eye.scene().lines()[s.line].ends;
+  return {eye, along(eye.exact_vector(a), eye.exact_vector(b),
+                     Rational((cuts.exact(s.at) + cuts.exact(*s.to)) / 2))};
+}
+
 void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
                   std::span<const std::uint8_t> possibly_seen,
                   std::vector<Accident>& accidents) {
@@ -312,8 +333,9 @@ void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
       if (line < 0) continue;
       if (eye.end_on(line)) {
         ends.push_back(line);
-      } else if (const auto part = viewer.part_in_sight(line);
-                 part && EdgeOnFace(eye, possibly_seen, f).exposed(line, *part)) {
+      } else if (std::ranges::any_of(viewer.parts_in_sight(line), [&](const auto& part) {
+                   return EdgeOnFace(eye, possibly_seen, f).exposed(line, part);
+                 })) {
         accidents.push_back({AccidentKind::EdgeOn, {{GeneratorKind::Face, facet}}});
       }
     }
@@ -341,15 +363,19 @@ std::vector<Accident> find_accidents(const EyeSpace& eye, LineViewer& viewer,
   std::vector<Accident> found;
   find_edge_on(eye, viewer, possibly_seen, found);
   std::vector<PicturePoint> points;
+  std::vector<std::uint8_t> stretches;
   for (const Suspect& s : viewer.suspects()) {
     points.push_back(s.point >= 0 ? PicturePoint(eye, s.point)
-                                  : PicturePoint(eye, s.line, s.cut));
+                     : s.to       ? middle(eye, s)
+                                  : PicturePoint(eye, s.line, s.at));
+    stretches.push_back(s.to ? 1 : 0);
   }
   const std::vector<int> numbers = number_points(points);
   for (int i = 0; i < static_cast<int>(points.size()); ++i) {
     hear_stop();
-    if (numbers[i] != i) continue;
-    if (auto accident = PointInspector(eye, possibly_seen, points[i]).inspect())
+    if (numbers[i] != i && stretches[i] == 0) continue;
+    PointInspector inspector(eye, possibly_seen, points[i]);
+    if (auto accident = inspector.inspect(stretches[i] != 0))
       found.push_back(std::move(*accident));
   }
   std::ranges::sort(found);

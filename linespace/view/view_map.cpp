@@ -138,9 +138,12 @@ std::vector<MapMaker::Run> MapMaker::runs(bool seams) const {
   for (int e = 0; e < static_cast<int>(seam_.size()); ++e) {
     if ((seam_[e] != 0) != seams || done[e] != 0) continue;
     int first = 2 * e;
-    for (int back; (back = straight_on(first ^ 1)) >= 0;) first = back ^ 1;
+    for (int back; (back = straight_on(first ^ 1)) >= 0 && done[back / 2] == 0;) {
+      first = back ^ 1;
+      if (first / 2 == e) break;  // round in a circle: only by signs of doubles
+    }
     Run run;
-    for (int h = first; h >= 0; h = straight_on(h)) {
+    for (int h = first; h >= 0 && done[h / 2] == 0; h = straight_on(h)) {
       run.push_back(h);
       done[h / 2] = 1;
     }
@@ -239,14 +242,9 @@ MapEdgeKind MapMaker::kind(int edge) const {
 // Where a line passes a point of its picture, exactly.
 ExactPoint MapMaker::exact_place(int line, int point) const {
   const auto [a, b] = eye_->scene().lines()[line].ends;
-  const ExactPoint& w = graph_->points[point].exact();
-  const ExactPoint m = exact_cross(eye_->exact_vector(a), w);
-  const ExactPoint n = exact_cross(w, eye_->exact_vector(b));
-  // w = s u + t v: m and n are t and s times u x v.
-  int i = 0;
-  while (i < 2 && m[i] + n[i] == 0) ++i;
+  const auto [s, t] = LineCuts(*eye_, line).shares(graph_->points[point].exact());
   return along(eye_->scene().exact(a), eye_->scene().exact(b),
-               quotient(m[i], Rational(m[i] + n[i])));
+               quotient(t, Rational(s + t)));
 }
 
 // Two lines seen to cross in a point of the picture pass one point of space there.

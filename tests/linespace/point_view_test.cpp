@@ -6,8 +6,15 @@
 
 #include <algorithm>
 #include <numbers>
+#include <set>
+#include <vector>
 
+#include "linespace/view/line_view.h"
+#include "linespace/view/possibly_seen.h"
+#include "linespace/view/view_graph.h"
 #include "tests/support/generators.h"
+#include "tests/support/view_comparison.h"
+#include "tests/support/view_scenes.h"
 
 namespace sightline {
 namespace {
@@ -77,6 +84,181 @@ TEST(PointView, BoxInARoom) {
   double sum = 0;
   for (const SeenFacet& f : view.facets) sum += f.measure;
   EXPECT_NEAR(sum, 4 * std::numbers::pi, 1e-12);
+}
+
+// ---- invariance
+// --------------------------------------------------------------------------
+
+// What of a view does not depend on numbers and on the side from which it is looked at.
+struct Summary {
+  std::vector<int> counts;
+  std::vector<double> measures;  // ascending
+
+  explicit Summary(const PointView& view, double scale = 1) {
+    for (int k = 0; k < 4; ++k)
+      counts.push_back(count(view, static_cast<MapVertexKind>(k)));
+    for (int k = 0; k < 6; ++k)
+      counts.push_back(count(view, static_cast<MapEdgeKind>(k)));
+    for (const int n :
+         {static_cast<int>(view.regions.size()), view.components, view.background_pieces,
+          static_cast<int>(view.general), static_cast<int>(view.facets.size()),
+          static_cast<int>(view.place)}) {
+      counts.push_back(n);
+    }
+    for (const SeenFacet& f : view.facets) measures.push_back(f.measure * scale);
+    std::ranges::sort(measures);
+  }
+};
+
+void expect_same(const Summary& a, const Summary& b) {
+  EXPECT_EQ(a.counts, b.counts);
+  ASSERT_EQ(a.measures.size(), b.measures.size());
+  for (std::size_t i = 0; i < a.measures.size(); ++i) {
+    EXPECT_NEAR(a.measures[i], b.measures[i], 1e-12 * a.measures[i] + 2e-15);
+  }
+}
+
+Viewpoint moved(const Viewpoint& eye, const Eigen::Matrix3d& m) {
+  const Point p = m * eye.at.nearest;
+  return eye.kind == Viewpoint::Kind::Eye ? eye_at(p) : eye_far_along(p);
+}
+
+PolygonSoup moved(PolygonSoup soup, const Eigen::Matrix3d& m) {
+  for (Point& p : soup.vertices) p = (m * p).eval();
+  return soup;
+}
+
+// Calls check(soup, view, eye) for eyes with double coordinates on all scenes.
+template <class Check>
+void for_views(int eyes, Check&& check) {
+  for (const testing::ViewScene& s : testing::view_scenes()) {
+    SCOPED_TRACE(s.name);
+    const Scene scene(s.soup);
+    const PointViewIndex index(scene);
+    for (const testing::NaiveEye& naive : testing::view_eyes(scene, 77, eyes)) {
+      const Viewpoint eye = testing::viewpoint_of(naive);
+      if (!eye.at.is_double[0] || !eye.at.is_double[1] || !eye.at.is_double[2]) continue;
+      SCOPED_TRACE(eye.at.nearest.transpose());
+      check(s.soup, index.view(eye), eye);
+    }
+  }
+}
+
+TEST(PointViewInvariance, AxesAndMirrors) {
+  Eigen::Matrix3d turn, mirror;
+  turn << 0, 1, 0, 0, 0, 1, 1, 0, 0;
+  mirror << 0, -1, 0, -1, 0, 0, 0, 0, 1;
+  for_views(3, [&](const PolygonSoup& soup, const PointView& view, const Viewpoint& eye) {
+    const Scene turned(moved(soup, turn));
+    const PointView other = PointViewIndex(turned).view(moved(eye, turn));
+    expect_same(Summary(view), Summary(other));
+    EXPECT_EQ(view.structure, other.structure);
+    // A mirror turns polygons inside out: they are listed the other way round.
+    PolygonSoup reversed = moved(soup, mirror);
+    for (auto& polygon : reversed.polygons) std::ranges::reverse(polygon);
+    const Scene mirrored(reversed);
+    expect_same(Summary(view),
+                Summary(PointViewIndex(mirrored).view(moved(eye, mirror))));
+  });
+}
+
+TEST(PointViewInvariance, PowersOfTwo) {
+  for_views(2, [&](const PolygonSoup& soup, const PointView& view, const Viewpoint& eye) {
+    for (const double factor : {0x1p-100, 0x1p-20, 0x1p100}) {
+      const Eigen::Matrix3d m = factor * Eigen::Matrix3d::Identity();
+      const Scene scaled(moved(soup, m));
+      const PointView other = PointViewIndex(scaled).view(moved(eye, m));
+      const bool area = eye.kind == Viewpoint::Kind::Direction;
+      expect_same(Summary(view), Summary(other, area ? 1 / (factor * factor) : 1));
+      EXPECT_EQ(view.structure, other.structure);
+    }
+  });
+}
+
+TEST(PointViewInvariance, OrderOfPolygonsAndVertices) {
+  testing::Random random(5);
+  for_views(2, [&](const PolygonSoup& soup, const PointView& view, const Viewpoint& eye) {
+    PolygonSoup other = soup;
+    // Within groups, of which names and order stay.
+    for (auto& group : other.groups) {
+      std::vector<int> faces = group.faces;
+      random.shuffle(faces);
+      for (std::size_t i = 0; i < faces.size(); ++i)
+        other.polygons[group.faces[i]] = soup.polygons[faces[i]];
+    }
+    for (auto& polygon : other.polygons)
+      std::ranges::rotate(polygon, polygon.begin() + random.integer(0, 2));
+    const Scene shuffled(other);
+    expect_same(Summary(view), Summary(PointViewIndex(shuffled).view(eye)));
+  });
+}
+
+TEST(PointViewInvariance, PolygonsCutIntoTriangles) {
+  for_views(2, [&](const PolygonSoup& soup, const PointView& view, const Viewpoint& eye) {
+    const bool convex = std::ranges::none_of(
+        soup.polygons, [](const std::vector<int>& p) { return p.size() > 4; });
+    // Copies of a polygon are one face; cut differently, they are several.
+    std::set<std::vector<int>> all;
+    for (std::vector<int> p : soup.polygons) {
+      std::ranges::sort(p);
+      if (!all.insert(p).second) return;
+    }
+    if (!convex) return;
+    const Scene cut(testing::cut_into_triangles(soup));
+    expect_same(Summary(view), Summary(PointViewIndex(cut).view(eye)));
+  });
+}
+
+// ---- what is left out
+// ---------------------------------------------------------------------
+
+TEST(PossiblySeen, HidesNothingThatIsSeen) {
+  testing::Random random(3);
+  for (const bool square : {false, true}) {
+    testing::StreetCityOptions options;
+    options.square = square;
+    const Scene scene(testing::street_city(square ? 2 : 1, 996, options));
+    const internal::ViewScene shared(scene, {});
+    std::size_t left_out = 0;
+    for (int i = 0; i < 12; ++i) {
+      Point p(random.uniform(-20, 150), random.uniform(-20, 150),
+              random.uniform(0.5, 40));
+      if (i % 3 == 0) p = p.array().round();
+      const Viewpoint eye = i % 4 == 1 ? eye_far_along(p) : eye_at(p);
+      const internal::EyeSpace space(shared, eye);
+      const internal::EyeStar star(space);
+      const auto seen = internal::possibly_seen(space);
+      left_out += static_cast<std::size_t>(std::ranges::count(seen, 0));
+      // All faces asked: none is seen that was left out.
+      const std::vector<std::uint8_t> all(scene.faces().size(), 1);
+      internal::LineViewer viewer(space, star, all);
+      std::vector<internal::LinePiece> pieces;
+      for (int line = 0; line < static_cast<int>(shared.lines().size()); ++line)
+        viewer.view(line, pieces);
+      const internal::ViewGraph graph = join_pieces(space, star, pieces, all);
+      for (const internal::FacetSides& region : graph.regions) {
+        for (const int side : region) {
+          if (side < 0) continue;
+          const bool kept = std::ranges::any_of(scene.facets()[side / 2].faces,
+                                                [&](int f) { return seen[f] != 0; });
+          EXPECT_TRUE(kept) << "facet " << side / 2 << " from " << p.transpose();
+        }
+      }
+    }
+    EXPECT_GT(left_out, 12U * 200);
+  }
+}
+
+TEST(PointView, DoublePrecisionAnswers) {
+  Request request;
+  request.precision = Precision::Double;
+  for (const testing::ViewScene& s : testing::view_scenes()) {
+    const Scene scene(s.soup);
+    const PointViewIndex index(scene);
+    for (const testing::NaiveEye& eye : testing::view_eyes(scene, 5, 4)) {
+      EXPECT_NO_THROW((void)index.view(testing::viewpoint_of(eye), request)) << s.name;
+    }
+  }
 }
 
 }  // namespace
