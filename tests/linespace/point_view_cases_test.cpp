@@ -190,6 +190,9 @@ TEST(PointViewCases, CrackOfNoWidth) {
       std::ranges::count(view.edges, near, [](const MapEdge& e) { return e.line.edge; }),
       1);
   EXPECT_FALSE(view.general);
+  EXPECT_TRUE(tells(view, {AccidentKind::AlongEdge,
+                           {edge_generator(crack.scene, {0, 0, 0}, {0, 0, 2}),
+                            edge_generator(crack.scene, {0, 1, -1}, {0, 1, 3})}}));
 
   // Seen a little from the right the crack opens: the sheet behind, 1 high, shows as
   // wide as the eye's line of sight shifts between the two sheets, but for the part
@@ -641,6 +644,13 @@ TEST(PointViewCases, AccidentAlongEdge) {
                                      .components = 1,
                                      .background_pieces = 1}));
   EXPECT_FALSE(view.general);
+  EXPECT_TRUE(tells(view, {AccidentKind::AlongEdge,
+                           {edge_generator(scene.scene, {-1, 0, 1}, {1, 0, 1}),
+                            edge_generator(scene.scene, {1, 1, 2}, {4, 1, 2})}}));
+  // Either side ends on the other.
+  EXPECT_EQ(count(view, AccidentKind::AlongEdge), 1);
+  EXPECT_EQ(count(view, AccidentKind::CornerOnEdge), 2);
+  EXPECT_EQ(view.accidents.size(), 3U);
 }
 
 // What no eye near by sees makes no accident.
