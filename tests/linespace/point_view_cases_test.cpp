@@ -254,6 +254,23 @@ TEST(PointViewCases, StackedBoxes) {
   EXPECT_TRUE(view.general);
 }
 
+// The same picture where the small box reaches into the large one: two sides cut through
+// its top, and three upright edges pierce it.
+TEST(PointViewCases, SunkBox) {
+  const Case boxes("sunk_box");
+  const PointView view = boxes.along(kOblique);
+  EXPECT_EQ(counts(view), (MapCounts{.corners = 11,
+                                     .touches = 3,
+                                     .edges = 18,
+                                     .regions = 7,
+                                     .components = 2,
+                                     .background_pieces = 1}));
+  EXPECT_EQ(edge_counts(view),
+            (EdgeCounts{.silhouette = 10, .crease = 6, .crossing = 2}));
+  EXPECT_NEAR(boxes.seen_of(view, Top), 9, 1e-13);
+  EXPECT_TRUE(view.general);
+}
+
 // Two boxes with flush tops and fronts show the map of one, with two seams.
 TEST(PointViewCases, FlushBoxes) {
   const Case boxes("flush_boxes");
@@ -387,6 +404,28 @@ TEST(PointViewCases, CrossingFacets) {
   EXPECT_TRUE(view.general);
 }
 
+// Pages y = 0, x = y and x = 0 share the z-axis, with all of them on one side of it: a
+// silhouette.  At the distance s along x from the axis page y = 0 hides the second one
+// below z = 2 - s, up to s = 4/3, which leaves 4 - 16/9 of 4.  The second hides the third
+// below z = 2 - 2 y / 3, which leaves a third of it.
+TEST(PointViewCases, BookOfThreePages) {
+  const Case book("book");
+  const PointView view = book.along(kOblique);
+  // The lower side of the second page comes out behind the first, the far side of the
+  // third behind the second; its lower corner is hidden.
+  EXPECT_EQ(counts(view), (MapCounts{.corners = 7,
+                                     .t_vertices = 2,
+                                     .edges = 11,
+                                     .regions = 4,
+                                     .components = 1,
+                                     .background_pieces = 1}));
+  EXPECT_EQ(edge_counts(view), (EdgeCounts{.silhouette = 1, .boundary = 10}));
+  EXPECT_NEAR(book.seen_of(view, 0), 8. / 3, 1e-14);
+  EXPECT_NEAR(book.seen_of(view, 1), 4 - 16. / 9, 1e-14);
+  EXPECT_NEAR(book.seen_of(view, 2), 4. / 9, 1e-14);
+  EXPECT_TRUE(view.general);
+}
+
 // The two sides of a sheet are two patches, with one map.
 TEST(PointViewCases, SheetFromBothSides) {
   const Case sheet("sheet");
@@ -516,6 +555,65 @@ TEST(PointViewCases, EyeOnACorner) {
   EXPECT_NEAR(sum_of_regions(view), 3.5 * kPi, 1e-13);
   EXPECT_FALSE(view.general);
   EXPECT_TRUE(tells(view, {AccidentKind::OnScene, {corner}}));
+}
+
+// Between two boxes that touch all directions run into one of them.
+TEST(PointViewCases, EyeBetweenBoxes) {
+  const Case boxes("touching_boxes");
+  const PointView view = boxes.from({2, 1, 1});
+  EXPECT_EQ(view.place, EyePlace::Facet);
+  std::vector<int> both{facet_of(boxes.scene, Right), facet_of(boxes.scene, 6 + Left)};
+  std::ranges::sort(both);
+  EXPECT_EQ(view.place_ids, both);
+  EXPECT_TRUE(view.facets.empty());
+  EXPECT_TRUE(view.regions.empty());
+  EXPECT_FALSE(view.general);
+
+  // On the edges of both, in their flush fronts, half of all leave freely.
+  const PointView front = boxes.from({2, 0, 1});
+  EXPECT_EQ(front.place, EyePlace::Edge);
+  EXPECT_EQ(front.place_ids.size(), 2U);
+  EXPECT_NEAR(sum_of_regions(front), 2 * kPi, 1e-13);
+}
+
+// Where a small box stands on a large one, a quarter of all directions leaves freely.
+TEST(PointViewCases, EyeAtAFoot) {
+  const Case boxes("stacked_boxes");
+  const PointView view = boxes.from({1.5, 1, 1});
+  EXPECT_EQ(view.place, EyePlace::Edge);
+  EXPECT_EQ(view.place_ids,
+            std::vector{edge_generator(boxes.scene, {1, 1, 1}, {2, 1, 1}).id});
+  EXPECT_TRUE(view.facets.empty());
+  EXPECT_NEAR(sum_of_regions(view), kPi, 1e-13);
+}
+
+// On a wall of a room both sides are air: the other walls fill one half, of which the one
+// opposite is 2 away, and background the other.
+TEST(PointViewCases, EyeOnARoomsWall) {
+  const Case room("room");
+  const PointView view = room.from({0, 1, 1});
+  EXPECT_EQ(view.place, EyePlace::Facet);
+  EXPECT_EQ(view.facets.size(), 5U);
+  EXPECT_EQ(seen(room.scene, view, Left), nullptr);
+  EXPECT_NEAR(room.seen_of(view, Right), 4 * rectangle_angle(1, 1, 2), 1e-14);
+  EXPECT_EQ(view.background_pieces, 1);
+  for (const MapRegion& region : view.regions) {
+    if (!region.patches.empty()) continue;
+    EXPECT_NEAR(region.measure.value(), 2 * kPi, 1e-13);
+  }
+  EXPECT_NEAR(sum_of_regions(view), 4 * kPi, 1e-13);
+  EXPECT_FALSE(view.general);
+}
+
+// Within a box in the material of another it is the inner one that is seen.
+TEST(PointViewCases, EyeInTwoSolids) {
+  const Case boxes("nested_boxes");
+  const PointView view = boxes.from({0, 0, 0});
+  EXPECT_EQ(view.place, EyePlace::Inside);
+  EXPECT_EQ(view.place_ids, (std::vector{0, 1}));
+  EXPECT_EQ(view.facets.size(), 6U);
+  for (int side = 0; side < 6; ++side)
+    EXPECT_NEAR(boxes.seen_of(view, 6 + side), kSixth, 1e-14);
 }
 
 // At the height h over the middle of a square of side 2, close to it, the square's solid
