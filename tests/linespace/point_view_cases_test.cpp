@@ -271,6 +271,23 @@ TEST(PointViewCases, SunkBox) {
   EXPECT_TRUE(view.general);
 }
 
+// A box turned by 45 degrees stands on its edge: where that edge is seen, its lower front
+// meets the ground.  In the direction (2, -6, 3), of length 7, fronts with the normals
+// (0, -1, -1) and (0, -1, 1) and the end, of area 2, take 3/7, 9/7 and 4/7 of the
+// picture, all before the ground of 7 x 11.
+TEST(PointViewCases, BoxOnItsEdge) {
+  const Case boxes("box_on_its_edge");
+  const PointView view = boxes.along({2, -6, 3});
+  EXPECT_EQ(counts(view), (MapCounts{.corners = 14,
+                                     .edges = 18,
+                                     .regions = 7,
+                                     .components = 2,
+                                     .background_pieces = 1}));
+  EXPECT_EQ(edge_counts(view), (EdgeCounts{.silhouette = 11, .crease = 6, .contact = 1}));
+  EXPECT_NEAR(boxes.seen_of(view, Top), 33 - 16. / 7, 1e-12);
+  EXPECT_TRUE(view.general);
+}
+
 // Two boxes with flush tops and fronts show the map of one, with two seams.
 TEST(PointViewCases, FlushBoxes) {
   const Case boxes("flush_boxes");
@@ -312,6 +329,22 @@ TEST(PointViewCases, CoincidingFacets) {
     EXPECT_NEAR(region.measure.value(), 3, 1e-14);
   }
   for (const SeenFacet& facet : view.facets) EXPECT_EQ(facet.pieces, 1);
+  EXPECT_TRUE(view.general);
+}
+
+// Two boxes in one place show the map of one, with two facets in each region.
+TEST(PointViewCases, TwoEqualBoxes) {
+  const Case boxes("two_equal_boxes");
+  const PointView view = boxes.along(kOblique);
+  EXPECT_EQ(counts(view), (MapCounts{.corners = 7,
+                                     .edges = 9,
+                                     .regions = 4,
+                                     .components = 1,
+                                     .background_pieces = 1}));
+  EXPECT_EQ(edge_counts(view), (EdgeCounts{.silhouette = 6, .crease = 3}));
+  EXPECT_EQ(view.facets.size(), 6U);
+  for (const int side : {int{Front}, 6 + Front})
+    EXPECT_NEAR(boxes.seen_of(view, side), 8. / 3, 1e-14);
   EXPECT_TRUE(view.general);
 }
 
@@ -379,6 +412,24 @@ TEST(PointViewCases, TeeJunctionOnAFold) {
   // 2 sqrt(2), at the cosine 1 / sqrt(2).
   EXPECT_NEAR(fold.seen_of(view, 1), 2, 1e-14);
   EXPECT_TRUE(view.general);
+}
+
+// Of a box whose sides are six objects each is a sheet: its creases are contacts, its
+// silhouettes are boundaries.
+TEST(PointViewCases, BoxOfSheets) {
+  const Case box("box_of_sheets");
+  const PointView view = box.along(kOblique);
+  EXPECT_EQ(counts(view), (MapCounts{.corners = 7,
+                                     .edges = 9,
+                                     .regions = 4,
+                                     .components = 1,
+                                     .background_pieces = 1}));
+  EXPECT_EQ(edge_counts(view), (EdgeCounts{.boundary = 6, .contact = 3}));
+  EXPECT_TRUE(view.general);
+  // Within it, the eye is in no material.
+  const PointView within = box.from({1, 1, 1});
+  EXPECT_EQ(within.place, EyePlace::Free);
+  EXPECT_EQ(edge_counts(within), (EdgeCounts{.contact = 12}));
 }
 
 // Of each sheet the half before the other is seen whole.  Of the right half of a (x = 0)
