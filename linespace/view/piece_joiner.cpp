@@ -27,6 +27,8 @@ class Joiner {
   void drop_doubles();
   [[nodiscard]] bool inside(int point, int piece) const;
   [[nodiscard]] bool on_line(const PicturePoint& p, int line) const;
+  [[nodiscard]] int exact_order(int line, const PicturePoint& x,
+                                const PicturePoint& y) const;
   [[nodiscard]] int order(int line, const PicturePoint& x, const PicturePoint& y,
                           const LongVector& along) const;
 
@@ -105,6 +107,10 @@ int Joiner::order(int line, const PicturePoint& x, const PicturePoint& y,
   }
   const long double error = (2 * (x.error() + y.error()) + 0x1p-60L) * size;
   if (std::abs(difference) > error) return difference > 0 ? 1 : -1;
+  return exact_order(line, x, y);
+}
+
+int Joiner::exact_order(int line, const PicturePoint& x, const PicturePoint& y) const {
   const auto [a, b] = eye_->scene().lines()[line].ends;
   const ExactPoint normal = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
   return -exact_dot(normal, exact_cross(x.exact(), y.exact())).sign();
@@ -114,16 +120,22 @@ bool Joiner::inside(int point, int piece) const {
   const auto [from, to] = ends_[piece];
   if (point == from || point == to) return false;
   const PicturePoint& p = points_[point];
+  const int line = (*pieces_)[piece].line;
+  if (!on_line(p, line)) return false;
   const LongVector &u = points_[from].vector(), &v = points_[to].vector();
   LongVector along, middle;
   for (int i = 0; i < 3; ++i) {
     along[i] = v[i] - u[i];
     middle[i] = v[i] + u[i];
   }
-  // On the other side of the sphere.
+  // Of a piece that spans nearly half a turn doubles do not know the side of the sphere.
+  const bool wide = !eye_->is_direction() && dot(middle, middle) < 0x1p-8L;
+  if (wide) {
+    return exact_order(line, points_[from], p) < 0 &&
+           exact_order(line, p, points_[to]) < 0;
+  }
   if (!eye_->is_direction() && dot(middle, p.vector()) < 0) return false;
-  const int line = (*pieces_)[piece].line;
-  return on_line(p, line) && order(line, points_[from], p, along) < 0 &&
+  return order(line, points_[from], p, along) < 0 &&
          order(line, p, points_[to], along) < 0;
 }
 

@@ -301,7 +301,7 @@ std::vector<std::uint8_t> possibly_seen(const EyeSpace& eye) {
   const std::size_t n = eye.scene().scene().faces().size();
   // In small scenes the rasters would cost more than they save.
   constexpr std::size_t kSmall = 200;
-  if (n < kSmall || thread_precision == Precision::Double) {
+  if (n < kSmall) {
     return std::vector<std::uint8_t>(n, 1);
   }
   return Culler(eye).cull();

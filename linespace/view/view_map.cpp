@@ -192,16 +192,14 @@ Point MapMaker::place(int line, int point) const {
   const auto [a, b] = eye_->scene().lines()[line].ends;
   const PicturePoint& at = graph_->points[point];
   if (at.point() == a || at.point() == b) return eye_->scene().position(at.point());
-  const PicturePoint p(*eye_, a), q(*eye_, b);
-  long double length = 0;
-  for (int i = 0; i < 3; ++i)
-    length = std::max(length, std::abs(p.vector()[i] - q.vector()[i]));
-  // Of a line that is seen short, the point tells little.
-  if (at.error() + p.error() + q.error() > 0x1p-52L * length)
-    return rounded(exact_place(line, point));
   const LongVector &u = eye_->vector(a), &v = eye_->vector(b), &w = at.vector();
   const LongVector m = cross(u, w), n = cross(w, v);
   const long double s = std::sqrt(dot(m, m)), t = std::sqrt(dot(n, n));
+  // What an error of the point changes at most: much, on a line seen short or passing
+  // near.
+  const long double change =
+      (at.error() + 0x1p-60L) * (std::sqrt(dot(u, u)) + std::sqrt(dot(v, v)));
+  if (!(change < 0x1p-52L * (s + t))) return rounded(exact_place(line, point));
   const auto share = static_cast<double>(s / (s + t));
   const Point from = eye_->scene().position(a), to = eye_->scene().position(b);
   return from + share * (to - from);
