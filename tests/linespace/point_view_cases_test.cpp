@@ -802,6 +802,27 @@ TEST(PointViewCases, AccidentAlongEdge) {
   EXPECT_EQ(view.accidents.size(), 3U);
 }
 
+// A corner seen on a seam is none: a little to the left or to the right the structure is
+// the same.
+TEST(PointViewCases, CornerOnASeam) {
+  const Case scene("before_a_seam");
+  const PointView view = scene.from({0.5, -6, 0.75});
+  EXPECT_EQ(counts(view), (MapCounts{.corners = 4 + 3,
+                                     .t_vertices = 2,
+                                     .edges = 5 + 5,
+                                     .regions = 3,
+                                     .components = 1,
+                                     .background_pieces = 1,
+                                     .seams = 1}));
+  EXPECT_TRUE(view.accidents.empty());
+  EXPECT_TRUE(view.general);
+  for (const double x : {0.5 - kSmall, 0.5 + kSmall}) {
+    const PointView beside = scene.from({x, -6, 0.75});
+    EXPECT_TRUE(beside.general);
+    EXPECT_EQ(beside.structure, view.structure);
+  }
+}
+
 // What no eye near by sees makes no accident.
 TEST(PointViewCases, HiddenAccident) {
   const Case scene("hidden_three_edges");
