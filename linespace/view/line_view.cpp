@@ -6,9 +6,9 @@
 
 namespace sightline::internal {
 
-LineViewer::LineViewer(const EyeSpace& eye, const EyeStar& star,
+LineViewer::LineViewer(const EyeSpace& eye, const EyeStar& star, const Window& window,
                        std::span<const std::uint8_t> possibly_seen)
-    : eye_(&eye), star_(&star), tree_(std::vector<Box>{}) {
+    : eye_(&eye), star_(&star), window_(&window), tree_(std::vector<Box>{}) {
   std::vector<Box> boxes;
   for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
     if (possibly_seen[f] == 0 || eye.front(f) == Sign::Zero) continue;
@@ -39,7 +39,11 @@ bool LineViewer::cover(int line, const LineCuts& cuts) {
 void LineViewer::view(int line, std::vector<LinePiece>& pieces) {
   if (eye_->end_on(line)) return;
   const LineCuts cuts(*eye_, line);
-  if (!cover(line, cuts) && !star_->bounds(line)) return;
+  if (window_->has(line)) {
+    covers_.clear();  // nothing hides the window
+  } else if (!cover(line, cuts) && !star_->bounds(line)) {
+    return;
+  }
   const Scan scan = scan_covers(line, cuts);
   const std::size_t first = pieces.size();
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
@@ -65,7 +69,8 @@ std::optional<LinePiece> LineViewer::piece(int line, const Scan& scan,
   const auto& hidden = scan.hidden[i];
   if (blocked[0] && blocked[1]) return std::nullopt;
   const bool bounds_sight = blocked[0] || blocked[1];
-  if (bounds_sight && !star_->bounds(line)) return std::nullopt;
+  if (bounds_sight != window_->has(line) && !(bounds_sight && star_->bounds(line)))
+    return std::nullopt;
   // Where a nearer face ends along the line, its own side is the piece.
   if (!bounds_sight && (hidden[0] > 0 || hidden[1] > 0 || scan.containing[i].empty()))
     return std::nullopt;
@@ -89,7 +94,9 @@ std::vector<std::array<LineCut, 2>> LineViewer::parts_in_sight(int line) {
   if (!cover(line, cuts)) return parts;
   const Scan scan = scan_covers(line, cuts);
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
-    if (scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0)
+    const bool outside =
+        !scan.blocked.empty() && scan.blocked[i][0] && scan.blocked[i][1];
+    if (!outside && (scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0))
       parts.push_back({scan.at[i], scan.at[i + 1]});
   }
   return parts;
@@ -241,6 +248,7 @@ LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
   const auto before = [&](const LineCut& x, const LineCut& y) {
     return cuts.compare(x, y) < 0;
   };
+  window_->add_cuts(line, cuts, scan.at);
   std::ranges::sort(scan.at, before);
   const auto same = [&](const LineCut& x, const LineCut& y) {
     if (cuts.compare(x, y) != 0) return false;
@@ -278,7 +286,7 @@ LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
     for (int side = 0; side < 2; ++side) hidden[side] += begins[i][side];
     scan.hidden.push_back(hidden);
   }
-  if (!star_->faces().empty()) find_blocked(line, cuts, scan);
+  if (!star_->faces().empty() || !window_->empty()) find_blocked(line, cuts, scan);
   return scan;
 }
 
@@ -289,10 +297,15 @@ void LineViewer::find_blocked(int line, const LineCuts& cuts, Scan& scan) const 
   const ExactPoint right = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
   const ExactPoint left{-right[0], -right[1], -right[2]};
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
-    const Rational middle = (cuts.exact(scan.at[i]) + cuts.exact(scan.at[i + 1])) / 2;
-    const ExactPoint way =
-        exact_difference(along(scene.exact(a), scene.exact(b), middle), eye_->eye());
-    scan.blocked.push_back({star_->blocked(way, left), star_->blocked(way, right)});
+    std::array<bool, 2> blocked = window_->outside(line, cuts, scan.at[i]);
+    if (!star_->faces().empty() && !(blocked[0] && blocked[1])) {
+      const Rational middle = (cuts.exact(scan.at[i]) + cuts.exact(scan.at[i + 1])) / 2;
+      const ExactPoint way =
+          exact_difference(along(scene.exact(a), scene.exact(b), middle), eye_->eye());
+      blocked[0] = blocked[0] || star_->blocked(way, left);
+      blocked[1] = blocked[1] || star_->blocked(way, right);
+    }
+    scan.blocked.push_back(blocked);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "linespace/picture/line_cut.h"
 #include "linespace/space/bvh.h"
 #include "linespace/view/eye_star.h"
+#include "linespace/view/view_window.h"
 
 namespace sightline::internal {
 
@@ -20,7 +21,8 @@ struct SeenBeside {
   /// Faces that are seen there and contain the piece: one, or several that coincide.
   /// Empty: what is seen lies behind the piece.
   std::vector<int> faces;
-  /// From an eye on the scene: sight on this side runs into material and sees nothing.
+  /// Nothing is seen on this side: from an eye on the scene sight runs into material, or
+  /// it is beyond the window.
   bool blocked = false;
   friend bool operator==(const SeenBeside&, const SeenBeside&) = default;
 };
@@ -45,7 +47,7 @@ struct Suspect {
 class LineViewer {
  public:
   /// Faces marked 0 in possibly_seen are certainly hidden and are not asked.
-  LineViewer(const EyeSpace& eye, const EyeStar& star,
+  LineViewer(const EyeSpace& eye, const EyeStar& star, const Window& window,
              std::span<const std::uint8_t> possibly_seen);
 
   /// Appends the pieces of a line to `pieces`, from its first end to its second.
@@ -75,7 +77,7 @@ class LineViewer {
     std::vector<LineCut> at;
     std::vector<std::array<int, 2>> hidden;
     std::vector<std::vector<const Cover*>> containing;
-    std::vector<std::array<bool, 2>> blocked;  // empty for an eye off the scene
+    std::vector<std::array<bool, 2>> blocked;  // empty where nothing is
   };
 
   [[nodiscard]] bool cover(int line, const LineCuts& cuts);
@@ -92,6 +94,7 @@ class LineViewer {
 
   const EyeSpace* eye_;
   const EyeStar* star_;
+  const Window* window_;
   std::vector<int> askable_;  // faces that may be seen, and not edge-on
   Bvh tree_;                  // over their boxes
   std::vector<int> faces_;

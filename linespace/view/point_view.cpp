@@ -37,6 +37,8 @@ namespace {
 std::vector<int> lines_to_ask(const ViewScene& scene, const EyeStar& star,
                               std::span<const std::uint8_t> possibly_seen) {
   std::vector<int> lines(star.sides().begin(), star.sides().end());
+  for (std::size_t l = scene.first_window_line(); l < scene.lines().size(); ++l)
+    lines.push_back(static_cast<int>(l));
   for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
     if (possibly_seen[f] == 0) continue;
     for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
@@ -49,18 +51,17 @@ std::vector<int> lines_to_ask(const ViewScene& scene, const EyeStar& star,
   return lines;
 }
 
-}  // namespace
-
-PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) const {
+PointView seen_from(const ViewScene& scene, const Viewpoint& eye,
+                    const Request& request) {
   const PrecisionScope precision(request.precision);
   Stage stage(request, "view");
-  const ViewScene& scene = impl_->scene;
   const EyeSpace space(scene, eye);
 
   const std::vector<std::uint8_t> seen = possibly_seen(space);
   std::vector<LinePiece> pieces;
   const EyeStar star(space);
-  LineViewer viewer(space, star, seen);
+  const Window window(space);
+  LineViewer viewer(space, star, window, seen);
   const std::vector<int> lines = lines_to_ask(scene, star, seen);
   for (std::size_t i = 0; i < lines.size(); ++i) {
     stage.at(i, lines.size());
@@ -77,7 +78,7 @@ PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) con
   std::vector<bool> background;
   for (const MapRegion& r : map.regions) background.push_back(r.patches.empty());
   const ViewMeasures measures = measure(space, graph, map.region_of, background);
-  view.accidents = find_accidents(space, viewer, seen);
+  view.accidents = find_accidents(space, window, viewer, seen);
   if (!star.faces().empty()) {
     const GeneratorKind kind = star.place() == EyePlace::Corner ? GeneratorKind::Vertex
                                : star.place() == EyePlace::Edge ? GeneratorKind::Edge
@@ -103,6 +104,26 @@ PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) con
   view.background_pieces = map.background_pieces;
   view.seams = map.seams;
   return view;
+}
+
+}  // namespace
+
+PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) const {
+  return seen_from(impl_->scene, eye, request);
+}
+
+PointView PointViewIndex::view_through(const Viewpoint& eye,
+                                       std::span<const Point> window,
+                                       const Request& request) const {
+  if (window.size() < 3)
+    throw InvalidInput("the window: a polygon of three corners or more");
+  for (const Point& p : window) {
+    for (const double x : p) {
+      if (!is_admissible(x))
+        throw InvalidInput("the window: a coordinate outside [2^-140, 2^140]");
+    }
+  }
+  return seen_from(impl_->scene.with_window(window), eye, request);
 }
 
 }  // namespace sightline

@@ -374,7 +374,8 @@ void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
 
 }  // namespace
 
-std::vector<Accident> find_accidents(const EyeSpace& eye, LineViewer& viewer,
+std::vector<Accident> find_accidents(const EyeSpace& eye, const Window& window,
+                                     LineViewer& viewer,
                                      std::span<const std::uint8_t> possibly_seen) {
   std::vector<Accident> found;
   find_edge_on(eye, viewer, possibly_seen, found);
@@ -390,6 +391,7 @@ std::vector<Accident> find_accidents(const EyeSpace& eye, LineViewer& viewer,
   for (int i = 0; i < static_cast<int>(points.size()); ++i) {
     hear_stop();
     if (numbers[i] != i && stretches[i] == 0) continue;
+    if (!window.contains(points[i])) continue;
     PointInspector inspector(eye, possibly_seen, points[i]);
     if (auto accident = inspector.inspect(stretches[i] != 0))
       found.push_back(std::move(*accident));

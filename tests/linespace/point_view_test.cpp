@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <set>
 #include <vector>
@@ -209,6 +211,72 @@ TEST(PointViewInvariance, PolygonsCutIntoTriangles) {
   });
 }
 
+// ---- windows
+// ------------------------------------------------------------------------------
+
+// A triangle, and the three over its sides and a point within.
+TEST(PointViewWindow, PartsAddUpToTheWhole) {
+  testing::Random random(9);
+  for_views(3, [&](const PolygonSoup& soup, const PointView& view, const Viewpoint& eye) {
+    if (view.place != EyePlace::Free) return;
+    const Scene scene(soup);
+    const PointViewIndex index(scene);
+    const Point middle = 0.5 * (scene.bounds()[0] + scene.bounds()[1]);
+    const double size = (scene.bounds()[1] - scene.bounds()[0]).norm();
+    std::vector<Point> corners;
+    for (int i = 0; i < 3; ++i) corners.push_back(middle + size * random.direction());
+    const Point within = 0.2 * corners[0] + 0.3 * corners[1] + 0.5 * corners[2];
+    std::map<int, double> whole, parts;
+    const auto add = [&](const std::vector<Point>& window, std::map<int, double>& sums) {
+      for (const SeenFacet& f : index.view_through(eye, window).facets)
+        sums[f.facet] += f.measure;
+    };
+    add(corners, whole);
+    for (int i = 0; i < 3; ++i) add({corners[i], corners[(i + 1) % 3], within}, parts);
+    // The point within is rounded: a strip of an ulp may be seen on one side alone.
+    for (const auto& [facet, measure] : whole) {
+      EXPECT_NEAR(measure, parts[facet], 1e-11 * measure + 1e-13);
+      // Never more than without a window.
+      const auto f = std::ranges::find(view.facets, facet, &SeenFacet::facet);
+      ASSERT_NE(f, view.facets.end());
+      EXPECT_LE(measure, f->measure * (1 + 1e-12));
+    }
+  });
+}
+
+TEST(PointViewWindow, RoundTheWholeSceneSeesAll) {
+  for_views(2, [&](const PolygonSoup& soup, const PointView& view, const Viewpoint& eye) {
+    if (eye.kind != Viewpoint::Kind::Direction) return;
+    const Scene scene(soup);
+    const double r =
+        4 * (scene.bounds()[0].cwiseAbs() + scene.bounds()[1].cwiseAbs()).sum();
+    const Eigen::Vector3d u = eye.at.nearest.unitOrthogonal();
+    const Eigen::Vector3d v = eye.at.nearest.normalized().cross(u);
+    const std::vector<Point> window{r * u, r * v, -r * u, -r * v};
+    const PointView other = PointViewIndex(scene).view_through(eye, window);
+    ASSERT_EQ(view.facets.size(), other.facets.size());
+    for (std::size_t i = 0; i < view.facets.size(); ++i) {
+      EXPECT_EQ(view.facets[i].facet, other.facets[i].facet);
+      EXPECT_EQ(view.facets[i].pieces, other.facets[i].pieces);
+      EXPECT_NEAR(view.facets[i].measure, other.facets[i].measure,
+                  1e-12 * view.facets[i].measure);
+    }
+    EXPECT_EQ(view.edges.size() + 4, other.edges.size());
+    EXPECT_EQ(view.general, other.general);
+  });
+}
+
+TEST(PointViewWindow, RefusesWhatIsNoWindow) {
+  const Scene scene(testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}}));
+  const PointViewIndex index(scene);
+  const Viewpoint eye = eye_at({0.5, -5, 0.5});
+  const std::vector<Point> edge_on{{0, -4, 0.5}, {1, -4, 0.5}, {1, -3, 0.5}};
+  const std::vector<Point> bent{{0, 0, 0}, {1, 0, 0}, {0.1, 0, 0.1}, {0, 0, 1}};
+  const std::vector<Point> two{{0, 0, 0}, {1, 0, 0}};
+  for (const auto& window : {edge_on, bent, two})
+    EXPECT_THROW((void)index.view_through(eye, window), InvalidInput);
+}
+
 // ---- what is left out
 // ---------------------------------------------------------------------
 
@@ -231,7 +299,8 @@ TEST(PossiblySeen, HidesNothingThatIsSeen) {
       left_out += static_cast<std::size_t>(std::ranges::count(seen, 0));
       // All faces asked: none is seen that was left out.
       const std::vector<std::uint8_t> all(scene.faces().size(), 1);
-      internal::LineViewer viewer(space, star, all);
+      const internal::Window window(space);
+      internal::LineViewer viewer(space, star, window, all);
       std::vector<internal::LinePiece> pieces;
       for (int line = 0; line < static_cast<int>(shared.lines().size()); ++line)
         viewer.view(line, pieces);
