@@ -1,6 +1,7 @@
 #include "linespace/view/view_accidents.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -40,6 +41,8 @@ class PointInspector {
   [[nodiscard]] int corner(const Group& group) const;
   [[nodiscard]] std::vector<ExactPoint> ways(const Passing& p) const;
   [[nodiscard]] std::vector<PictureRay> rays(std::span<const Passing> lines) const;
+  [[nodiscard]] std::vector<int> patches_beside(const Group& group,
+                                                const PictureRay& ray) const;
   [[nodiscard]] Accident name() const;
 
   const EyeSpace* eye_;
@@ -133,22 +136,35 @@ void PointInspector::leave_out_hidden() {
                   [&](const Group& g) { return g.nearness < farthest->nearness; });
 }
 
-// Lines between faces of one patch, which cover all around the point, show nothing.
+// The patches that the faces at the group's depth show along a ray just beside one of its
+// lines, ascending.  Behind them others may hang on the same line, as where flush boxes
+// touch.
+std::vector<int> PointInspector::patches_beside(const Group& g,
+                                                const PictureRay& ray) const {
+  std::vector<int> shown;
+  std::array<Rational, 2> nearest;
+  for (const FaceThere& f : faces_) {
+    if (f.nearness != g.nearness || !contains(*eye_, f.face, ray)) continue;
+    const Nearness there(*eye_, f.face);
+    const std::array<Rational, 2> here{there.at(ray.beside[0]), there.at(ray.beside[1])};
+    if (!shown.empty() && here < nearest) continue;
+    if (!shown.empty() && nearest < here) shown.clear();
+    nearest = here;
+    shown.push_back(eye_->scene().patch(eye_->scene().scene().faces()[f.face].facet,
+                                        eye_->front(f.face) == Sign::Positive));
+  }
+  std::ranges::sort(shown);
+  shown.erase(std::ranges::unique(shown).begin(), shown.end());
+  return shown;
+}
+
+// Lines beside which the same patches are seen on either side show nothing.
 void PointInspector::leave_out_seams() {
-  const auto patch = [&](int f) {
-    return eye_->scene().patch(eye_->scene().scene().faces()[f].facet,
-                               eye_->front(f) == Sign::Positive);
-  };
   std::erase_if(groups_, [&](const Group& g) {
-    std::vector<int> faces;
-    for (const FaceThere& f : faces_) {
-      if (f.nearness == g.nearness) faces.push_back(f.face);
-    }
-    for (const int f : faces) {
-      if (patch(f) != patch(faces.front())) return false;
-    }
-    return std::ranges::all_of(rays(g.lines), [&](const PictureRay& ray) {
-      return std::ranges::any_of(faces, [&](int f) { return contains(*eye_, f, ray); });
+    const std::vector<PictureRay> beside = rays(g.lines);
+    const std::vector<int> shown = patches_beside(g, beside.front());
+    return !shown.empty() && std::ranges::all_of(beside, [&](const PictureRay& ray) {
+      return patches_beside(g, ray) == shown;
     });
   });
 }
