@@ -1,0 +1,100 @@
+// What an eye sees on its way along a path: every visual event that it crosses, in order,
+// and the view between each two.
+//
+// A path is a row of viewpoints, all eyes or all directions.  Two neighbours E0 and E1
+// make a segment, on which the eye is at (1 - u) E0 + u E1, 0 <= u <= 1.  For directions
+// too: then sight turns along the shorter great circle, and u depends on the lengths of
+// the two vectors.
+//
+//   const PointViewIndex index(scene);
+//   const std::vector path{eye_at({-5, -9, 1}), eye_at({5, -9, 1})};
+//   const ViewPath walk = view_path(index, path);
+//   for (const PathChange& c : walk.changes)
+//     std::cout << c.segment << ' ' << c.u << ": " << c.events.size() << '\n';
+//
+// The answer is exact: which events there are, their order, and the views between them
+// are decided by exact signs; only u is rounded.  How, and why nothing is missed:
+// linespace/path/path_walk.h.
+// Visual events: Koenderink and van Doorn, 1979; EV and EEE as in Gigus, Canny and
+// Seidel, Efficiently computing and representing aspect graphs of polyhedral objects,
+// 1991. Neighbours: point_view.h gives one view; skeleton/view_events.h asks a skeleton
+// that is there already, for segments of points, and tells what changes nothing too.
+
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "linespace/point_view.h"
+
+namespace sightline {
+
+enum class PathEventKind : std::uint8_t {
+  EV,      ///< a corner, or a point in which edges touch, and an edge, or two corners
+  EEE,     ///< three edges in one line of sight
+  F,       ///< a facet seen edge-on
+  Through  ///< the eye passes through a facet, an edge or a corner
+};
+
+struct PathEvent {
+  PathEventKind kind;
+  /// What is in one line of sight; F: the facet; Through: what the eye passes through.
+  /// Ascending.
+  std::vector<Generator> generators;
+  friend auto operator<=>(const PathEvent&, const PathEvent&) = default;
+};
+
+/// Numbers of the map's elements.
+struct MapCounts {
+  int corners = 0, t_vertices = 0, touches = 0, accident_vertices = 0;
+  int edges = 0, regions = 0, components = 0;
+  friend bool operator==(const MapCounts&, const MapCounts&) = default;
+};
+[[nodiscard]] MapCounts map_counts(const PointView& view);
+
+/// A position at which the labelled structure changes.
+struct PathChange {
+  int segment;
+  double u;  ///< within 2^-50
+  /// All events at this position, at least one, ascending.
+  std::vector<PathEvent> events;
+  /// Facets of which area is seen after and not before, and the other way round; front
+  /// and back of a facet count as two.  Ascending.
+  std::vector<int> appears, vanishes;
+  MapCounts difference;  ///< after less before
+};
+
+/// A part of a segment on which the labelled structure is the same.
+struct PathStretch {
+  int segment;
+  double u_from, u_to;
+  /// From some eye of it; nullopt if not asked for.
+  std::optional<PointView> view;
+};
+
+struct ViewPath {
+  std::vector<PathChange> changes;     ///< in order
+  std::vector<PathStretch> stretches;  ///< in order; they cover all of every segment
+  /// False when budget or stop ended the work: then both lists end early.
+  bool complete = true;
+};
+
+/// Walks along the path.  Laws:
+/// 1. Two neighbouring stretches of one segment have different structures, and there is a
+///    change between them.
+/// 2. Where a segment meets the next, its last stretch and the next segment's first have
+///    one structure, or there is a change at u = 1 of the former.
+/// 3. An event at the path's very beginning or end is not told.  A path that runs
+///    in an event surface (in the plane of a facet, say) has views that are not general;
+///    of these the maps are compared, and accidents that go on are no events.
+/// A path of one viewpoint has no segments.  Throws InvalidInput for a path that mixes
+/// eyes and directions, for opposite neighbouring directions, and for coordinates that
+/// PointViewIndex::view refuses.  Of the request precision, budget and stop are heard.
+/// Cost: a view for each event and for each suspected one; for n edges and k visible map
+/// edges met on the way, k n tests of a few nanoseconds.
+[[nodiscard]] ViewPath view_path(const PointViewIndex& index,
+                                 std::span<const Viewpoint> path, bool keep_views = true,
+                                 const Request& request = {});
+
+}  // namespace sightline

@@ -1,0 +1,30 @@
+// Walks along random paths, checked by views computed anew.
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "linespace/view_path.h"
+
+namespace sightline::testing {
+
+struct PathRun {
+  int paths;           ///< a scene
+  std::uint64_t seed;  ///< another choice of paths
+  int eyes = 20;       ///< at which the view is computed anew, a path
+  int most_reports = 10;
+};
+
+/// What of a run was found right; and what was not, a text each.
+struct PathReport {
+  int paths = 0, changes = 0, events = 0, views = 0;
+  std::vector<std::string> differences;
+};
+
+/// Segments and great circles in those of view_scenes() whose faces do not cross.  A
+/// third of the viewpoints are small integers, a third fractions, a third any doubles.
+[[nodiscard]] PathReport compare_paths(const PathRun& run);
+
+}  // namespace sightline::testing
