@@ -22,20 +22,42 @@ void PathCandidates::add(const SeenElements& seen) {
 }
 
 void PathCandidates::add_planes() {
-  const Scene& scene = scene_->scene().scene();
-  for (int facet = 0; facet < static_cast<int>(scene.facets().size()); ++facet) {
+  for (const Facet& facet : scene_->scene().scene().facets()) {
     hear_stop();
     // A bent facet has a plane for each face.
-    const Facet& f = scene.facets()[facet];
-    const std::size_t planes = f.planar ? 1 : f.faces.size();
-    for (std::size_t i = 0; i < planes; ++i) {
-      std::array<PathPoint, 3> p;
-      const auto t = plane_points(scene, f.faces[i]);
-      for (int k = 0; k < 3; ++k)
-        p[k] = {exact_point(scene.point(t[k])), scene.point(t[k])};
-      if (const auto root = path_->in_plane(p[0], p[1], p[2]))
-        by_root_[*root].push_back({Candidate::Kind::Plane, facet, -1, -1});
-    }
+    const std::size_t planes = facet.planar ? 1 : facet.faces.size();
+    for (std::size_t i = 0; i < planes; ++i) add_plane(facet.faces[i]);
+  }
+}
+
+void PathCandidates::add_plane(int face) {
+  const Scene& scene = scene_->scene().scene();
+  const int facet = scene.faces()[face].facet;
+  std::array<PathPoint, 3> p;
+  const auto t = plane_points(scene, face);
+  for (int k = 0; k < 3; ++k) p[k] = {exact_point(scene.point(t[k])), scene.point(t[k])};
+  if (const auto root = path_->in_plane(p[0], p[1], p[2])) {
+    by_root_[*root].push_back({Candidate::Kind::Plane, facet, -1, -1});
+  } else if (path_->stays_in_plane(p[0], p[1], p[2])) {
+    for (const int f : scene.facets()[facet].faces) add_lines_in_plane(f);
+  }
+}
+
+// Where an eye that stays in the plane of a face passes its sides' lines.
+void PathCandidates::add_lines_in_plane(int face) {
+  const Scene& scene = scene_->scene().scene();
+  const auto t = plane_points(scene, face);
+  const ExactPoint at = exact_point(scene.point(t[0]));
+  const ExactPoint n = exact_cross(exact_difference(exact_point(scene.point(t[1])), at),
+                                   exact_difference(exact_point(scene.point(t[2])), at));
+  for (int k = 0; k < scene.faces()[face].corner_count; ++k) {
+    const int line = scene_->scene().line_of_side(face, k);
+    if (line < 0) continue;
+    const PathLine& l = scene_->lines()[line];
+    ExactPoint off = l.a.exact;
+    for (int i = 0; i < 3; ++i) off[i] += n[i];
+    if (const auto root = path_->in_plane(l.a, l.b, {off, rounded(off)}))
+      by_root_[*root].push_back({Candidate::Kind::EyeOnLine, line, -1, -1});
   }
 }
 

@@ -16,7 +16,8 @@ struct Candidate {
     LinePoint,  ///< whole line a, then point c
     PointLine,  ///< point a, then line c
     PairLine,   ///< whole lines a and b, then line c
-    Plane       ///< of facet a
+    Plane,      ///< of facet a
+    EyeOnLine   ///< the eye, moving in a plane of faces, comes to line a there
   };
   Kind kind;
   int a, b, c;
@@ -40,6 +41,8 @@ class PathCandidates {
 
  private:
   void add_planes();
+  void add_plane(int face);
+  void add_lines_in_plane(int face);
   void add_line(int whole_line);
   void add_point(int point);
   void add_pair(const LinePair& pair);

@@ -145,6 +145,26 @@ std::vector<int> seen_only_in(const PointView& x, const PointView& y) {
   return facets;
 }
 
+namespace {
+
+// All that is in one line of sight lies in the facet's plane.
+bool in_plane_of(const Scene& scene, int facet, const PathEvent& event) {
+  const auto t = plane_points(scene, scene.facets()[facet].faces.front());
+  const auto holds = [&](int p) {
+    return orient3d(scene.point(t[0]), scene.point(t[1]), scene.point(t[2]),
+                    scene.point(p)) == Sign::Zero;
+  };
+  return std::ranges::all_of(event.generators, [&](const Generator& g) {
+    if (g.kind == GeneratorKind::Vertex) return holds(g.id);
+    if (g.kind == GeneratorKind::Edge) {
+      return std::ranges::all_of(scene.edges()[g.id].points, holds);
+    }
+    return g.id == facet;
+  });
+}
+
+}  // namespace
+
 std::vector<PathEvent> events_of(const Scene& scene, const PointView& at,
                                  const PointView& before, const PointView& after) {
   const auto goes_on = [&](const Accident& a) {
@@ -163,6 +183,16 @@ std::vector<PathEvent> events_of(const Scene& scene, const PointView& at,
     (less ? lesser : events).push_back({kind_of(a.kind), a.generators});
   }
   if (events.empty()) events = std::move(lesser);
+  // What lies in the plane of a facet that is seen edge-on belongs to that event.
+  std::vector<int> edge_on = under;
+  for (const PathEvent& e : events) {
+    if (e.kind == PathEventKind::F) edge_on.push_back(e.generators[0].id);
+  }
+  std::erase_if(events, [&](const PathEvent& e) {
+    if (e.kind == PathEventKind::F || e.kind == PathEventKind::Through) return false;
+    return std::ranges::any_of(edge_on,
+                               [&](int facet) { return in_plane_of(scene, facet, e); });
+  });
   std::ranges::sort(events);
   events.erase(std::ranges::unique(events).begin(), events.end());
   return events;
@@ -201,6 +231,10 @@ PathEvent event_of(const PathScene& scene, const Candidate& candidate) {
     case Candidate::Kind::PairLine:
       event.kind = PathEventKind::EEE;
       for (const int line : {candidate.a, candidate.b, candidate.c}) add_line(line);
+      break;
+    case Candidate::Kind::EyeOnLine:
+      event.kind = PathEventKind::Through;
+      add_line(candidate.a);
       break;
     case Candidate::Kind::Plane:
       event.kind = PathEventKind::F;

@@ -17,7 +17,8 @@ namespace sightline::internal {
 [[nodiscard]] std::vector<int> seen_only_in(const PointView& x, const PointView& y);
 
 /// Events at an eye that is on them, seen from there: its accidents, but for those that
-/// the views before and after it have too.
+/// the views before and after it have too.  What lies in the plane of a facet that is
+/// seen edge-on is a part of the facet's event.
 [[nodiscard]] std::vector<PathEvent> events_of(const Scene& scene, const PointView& at,
                                                const PointView& before,
                                                const PointView& after);

@@ -18,18 +18,37 @@ bool PathWalk::may_change(const PathCandidates::ByRoot::value_type& candidates,
   });
 }
 
+// From some eye between the two; if that is on an accident that changes nothing, and is
+// not there all the way, from another.
+PathWalk::Looked PathWalk::look_between(const PathRoot& from, const PathRoot& to) const {
+  const auto look = [&](const PathRoot& limit) {
+    const Rational u = between(from, limit);
+    return Looked{PathRoot(u),
+                  std::make_shared<const WalkView>(*scene_, (*look_)(path_->eye(u)))};
+  };
+  const auto new_accidents = [&](const Looked& looked) {
+    return std::ranges::any_of(looked.view->view.accidents, [&](const Accident& a) {
+      return !now_ || !std::ranges::binary_search(now_->view.accidents, a);
+    });
+  };
+  Looked first = look(to);
+  if (!new_accidents(first)) return first;
+  Looked second = look(first.at);
+  return second.view->view.accidents.size() < first.view->view.accidents.size() ? second
+                                                                                : first;
+}
+
 // The view that holds from just after the root on.
 WalkViewPtr PathWalk::look_after(const PathRoot& root) {
   const auto& by_root = candidates_.by_root();
   const auto after = by_root.upper_bound(root);
-  PathRoot limit = after == by_root.end() ? PathRoot(1) : after->first;
+  PathRoot limit = after == by_root.end() ? PathRoot(Rational(1)) : after->first;
   while (true) {
-    const Rational u = between(root, limit);
-    auto view = std::make_shared<const WalkView>(*scene_, (*look_)(path_->eye(u)));
+    const auto [at, view] = look_between(root, limit);
     if (now_ && same_structure(*scene_, now_->view, view->view)) return view;
     candidates_.add(view->seen);
-    // Is what it sees the same from the root up to here?
-    const auto from = by_root.upper_bound(root), to = by_root.lower_bound(PathRoot(u));
+    // Is what it sees the same from the root up to here, and here?
+    const auto from = by_root.upper_bound(root), to = by_root.upper_bound(at);
     const bool holds = std::none_of(
         from, to, [&](const auto& candidates) { return may_change(candidates, *view); });
     if (holds) return view;

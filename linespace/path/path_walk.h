@@ -63,6 +63,11 @@ class PathWalk {
   std::optional<WalkStep> next();
 
  private:
+  struct Looked {
+    PathRoot at;
+    WalkViewPtr view;
+  };
+  [[nodiscard]] Looked look_between(const PathRoot& from, const PathRoot& to) const;
   [[nodiscard]] WalkViewPtr look_after(const PathRoot& root);
   [[nodiscard]] bool may_change(const PathCandidates::ByRoot::value_type& candidates,
                                 const WalkView& view) const;

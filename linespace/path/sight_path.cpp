@@ -129,8 +129,22 @@ std::optional<PathRoot> SightPath::in_plane(const PathPoint& p, const PathPoint&
   if (sides[0] * sides[1] > 0) return std::nullopt;
   const ExactPoint m =
       exact_cross(exact_difference(q.exact, p.exact), exact_difference(r.exact, p.exact));
-  const Rational offset = is_direction() ? Rational(0) : exact_dot(m, p.exact);
-  return root_inside(exact_dot(m, from_) - offset, exact_dot(m, to_) - offset);
+  const auto [at0, at1] = plane_values(p.exact, m);
+  return root_inside(at0, at1);
+}
+
+std::array<Rational, 2> SightPath::plane_values(const ExactPoint& p,
+                                                const ExactPoint& normal) const {
+  const Rational offset = is_direction() ? Rational(0) : exact_dot(normal, p);
+  return {exact_dot(normal, from_) - offset, exact_dot(normal, to_) - offset};
+}
+
+bool SightPath::stays_in_plane(const PathPoint& p, const PathPoint& q,
+                               const PathPoint& r) const {
+  const ExactPoint m =
+      exact_cross(exact_difference(q.exact, p.exact), exact_difference(r.exact, p.exact));
+  const auto [at0, at1] = plane_values(p.exact, m);
+  return m != ExactPoint{} && at0 == 0 && at1 == 0;
 }
 
 SightPath::Guess SightPath::guess_in_one_point(

@@ -46,6 +46,9 @@ class SightPath {
   /// also where it lies in the plane all the time, or the points are in line.
   [[nodiscard]] std::optional<PathRoot> in_plane(const PathPoint& p, const PathPoint& q,
                                                  const PathPoint& r) const;
+  /// It lies in this plane all the time; false where the points are in line.
+  [[nodiscard]] bool stays_in_plane(const PathPoint& p, const PathPoint& q,
+                                    const PathPoint& r) const;
   /// Where it sees three lines in one point of the picture.  The roots for which
   /// plausible(u), asked with a u within 2^-26, is false may be left out.
   template <class Plausible>
@@ -67,6 +70,9 @@ class SightPath {
     int count = 0;
     std::array<double, 2> at{};
   };
+  // Values at the ends of a linear function that is zero in the plane.
+  [[nodiscard]] std::array<Rational, 2> plane_values(const ExactPoint& p,
+                                                     const ExactPoint& normal) const;
   [[nodiscard]] Guess guess_in_one_point(
       const std::array<const PathLine*, 3>& lines) const;
   [[nodiscard]] std::vector<PathRoot> exact_in_one_point(
