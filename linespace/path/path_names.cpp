@@ -185,14 +185,17 @@ std::vector<PathEvent> events_of(const Scene& scene, const PointView& at,
   if (events.empty()) events = std::move(lesser);
   // What lies in the plane of a facet that is seen edge-on belongs to that event.
   std::vector<int> edge_on = under;
-  for (const PathEvent& e : events) {
-    if (e.kind == PathEventKind::F) edge_on.push_back(e.generators[0].id);
+  for (const Accident& a : at.accidents) {
+    if (a.kind == AccidentKind::EdgeOn) edge_on.push_back(a.generators[0].id);
   }
-  std::erase_if(events, [&](const PathEvent& e) {
+  const auto part_of_another = [&](const PathEvent& e) {
     if (e.kind == PathEventKind::F || e.kind == PathEventKind::Through) return false;
     return std::ranges::any_of(edge_on,
                                [&](int facet) { return in_plane_of(scene, facet, e); });
-  });
+  };
+  if (!std::ranges::all_of(events, part_of_another)) {
+    std::erase_if(events, part_of_another);
+  }
   std::ranges::sort(events);
   events.erase(std::ranges::unique(events).begin(), events.end());
   return events;

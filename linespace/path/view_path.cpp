@@ -168,7 +168,13 @@ ViewPath view_path(const PointViewIndex& index, std::span<const Viewpoint> path,
                    bool keep_views, const Request& request) {
   check(path);
   const PrecisionScope precision(request.precision);
-  return Walker(index, path, keep_views, request).walk();
+  try {
+    return Walker(index, path, keep_views, request).walk();
+  } catch (const Stopped&) {
+    ViewPath nothing;
+    nothing.complete = false;
+    return nothing;
+  }
 }
 
 }  // namespace sightline

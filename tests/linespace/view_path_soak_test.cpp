@@ -10,7 +10,7 @@ namespace sightline::testing {
 namespace {
 
 TEST(ViewPathSoak, ViewsAndChangesOfRandomPaths) {
-  const PathReport report = compare_paths({.paths = 12, .seed = 1000});
+  const PathReport report = compare_paths({.paths = 130, .seed = 1000});
   for (const std::string& d : report.differences) ADD_FAILURE() << d;
   std::cout << report.paths << " paths, " << report.changes << " changes, "
             << report.events << " events, " << report.views << " views\n";
