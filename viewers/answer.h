@@ -50,8 +50,8 @@ struct Cost {
 
 /// The numbers in the file of a facet's polygons, ascending.
 [[nodiscard]] std::vector<int> polygons_of(const Scene& scene, int facet);
-/// {"type", "id", ...}: a vertex with its coordinates, an edge with its ends, a facet with
-/// its polygons; and the names of its objects.
+/// {"type", "id", ...}: a vertex with its coordinates, an edge with its ends, a facet
+/// with its polygons; and the names of its objects.
 [[nodiscard]] Json generator_json(const Scene& scene, const Generator& generator);
 
 /// Defects of a kind that info_json lists; "defect_counts" counts all.

@@ -62,8 +62,9 @@ EyeSpace::EyeSpace(const ViewScene& scene, const Viewpoint& eye)
       eye_(parsed(eye.at)),
       rounded_eye_(eye.at.nearest),
       is_double_(eye.at.is_double[0] && eye.at.is_double[1] && eye.at.is_double[2]),
-      vectors_(scene.point_count()),
-      exact_vectors_(scene.point_count()),
+      vectors_(static_cast<LongVector*>(std::calloc(
+                   static_cast<std::size_t>(scene.point_count()), sizeof(LongVector))),
+               &std::free),
       fronts_(scene.scene().faces().size(), 2) {
   for (int i = 0; i < 3; ++i) {
     if (!is_admissible(rounded_eye_[i])) {
@@ -102,9 +103,9 @@ EyeSpace::EyeSpace(const ViewScene& scene, const Viewpoint& eye)
 }
 
 const ExactPoint& EyeSpace::exact_vector(int point) const {
-  auto& known = exact_vectors_[point];
-  if (!known) known = vector_to(scene_->exact(point));
-  return *known;
+  const auto [it, is_new] = exact_vectors_.try_emplace(point);
+  if (is_new) it->second = vector_to(scene_->exact(point));
+  return it->second;
 }
 
 ExactPoint EyeSpace::vector_to(const ExactPoint& p) const {
@@ -113,20 +114,19 @@ ExactPoint EyeSpace::vector_to(const ExactPoint& p) const {
 }
 
 const LongVector& EyeSpace::vector(int point) const {
-  auto& known = vectors_[point];
-  if (!known) {
+  LongVector& known = vectors_[point];
+  if (known == LongVector{}) {
     if (!direction_ && is_double_ && !scene_->is_constructed(point)) {
       const Point& p = scene_->scene().point(point);
-      known.emplace();
       for (int i = 0; i < 3; ++i) {
-        (*known)[i] = static_cast<long double>(rounded_eye_[i]) - p[i];
+        known[i] = static_cast<long double>(rounded_eye_[i]) - p[i];
       }
     } else {
       const ExactPoint& v = exact_vector(point);
       known = LongVector{long_double(v[0]), long_double(v[1]), long_double(v[2])};
     }
   }
-  return *known;
+  return known;
 }
 
 Rational EyeSpace::exact_height(int point) const {

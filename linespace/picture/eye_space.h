@@ -10,8 +10,11 @@
 #pragma once
 
 #include <array>
+#include <cstdlib>
+#include <memory>
 #include <optional>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "linespace/picture/view_scene.h"
@@ -81,8 +84,10 @@ class EyeSpace {
   int axis_ = 0;                      // of a direction: its largest component
   std::array<ExactPoint, 2> across_;  // of a direction: the rows of x and y
   long double area_factor_ = 1;
-  mutable std::vector<std::optional<LongVector>> vectors_;
-  mutable std::vector<std::optional<ExactPoint>> exact_vectors_;
+  /// By point; null vectors where not asked yet.  Zeroed by the system when first
+  /// touched, for a view touches few of all points.
+  std::unique_ptr<LongVector[], decltype(&std::free)> vectors_;
+  mutable std::unordered_map<int, ExactPoint> exact_vectors_;
   mutable std::vector<std::int8_t> fronts_;  // 2: not asked yet
 };
 

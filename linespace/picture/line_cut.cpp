@@ -7,7 +7,7 @@ namespace {
 
 std::strong_ordering ordering(int sign) { return sign <=> 0; }
 
-bool accurate(const LongValue& v) { return v.error <= 0x1p-46L * std::abs(v.value); }
+bool accurate(const LongValue& v) { return v.error <= 0x1p-36L * std::abs(v.value); }
 
 }  // namespace
 

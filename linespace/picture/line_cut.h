@@ -22,7 +22,7 @@ struct LineCut {
   int p = -1, q = -1;
   /// The position, within the error.
   long double at = 0, error = 0;
-  /// Of a Side or Plane: two numbers above 0 with at = w0 / (w0 + w1), each within 2^-45
+  /// Of a Side or Plane: two numbers above 0 with at = w0 / (w0 + w1), each within 2^-35
   /// of itself.
   long double w0 = 0, w1 = 0;
 };

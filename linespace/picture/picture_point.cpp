@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "linespace/picture/classes.h"
+#include "linespace/work/stop_scope.h"
 
 namespace sightline::internal {
 
@@ -93,6 +97,34 @@ bool same_point(const PicturePoint& p, const PicturePoint& q) {
     if (std::abs(p.vector()[i] - q.vector()[i]) > p.error() + q.error()) return false;
   }
   return exact_cross(p.exact(), q.exact()) == ExactPoint{};
+}
+
+std::vector<int> number_points(std::span<const PicturePoint> points) {
+  // A linear function hardly ever takes one value at two points: only points with nearly
+  // the same value can be one.
+  std::vector<std::pair<long double, int>> keys;
+  long double widest = 0;
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    const LongVector& v = points[i].vector();
+    keys.emplace_back(0.5377L * v[0] + 0.8339L * v[1] + 0.1259L * v[2], i);
+    widest = std::max(widest, points[i].error());
+  }
+  std::ranges::sort(keys);
+  Classes classes(points.size());
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    hear_stop();
+    for (std::size_t j = i + 1; j < keys.size(); ++j) {
+      if (keys[j].first - keys[i].first > 4 * widest + 0x1p-58L) break;
+      const int x = keys[i].second, y = keys[j].second;
+      if (classes.root(x) != classes.root(y) && same_point(points[x], points[y]))
+        classes.join(x, y);
+    }
+  }
+  std::vector<int> numbers;
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    numbers.push_back(classes.root(i));
+  }
+  return numbers;
 }
 
 }  // namespace sightline::internal

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "linespace/picture/eye_space.h"
 #include "linespace/picture/line_cut.h"
@@ -48,5 +50,8 @@ class PicturePoint {
                           const PicturePoint& r);
 /// The two are one point of the picture.
 [[nodiscard]] bool same_point(const PicturePoint& p, const PicturePoint& q);
+/// For each point the first in the list that is the same.  Cost: n log n, where few are
+/// nearly the same.
+[[nodiscard]] std::vector<int> number_points(std::span<const PicturePoint> points);
 
 }  // namespace sightline::internal

@@ -8,6 +8,7 @@
 #include "linespace/picture/classes.h"
 #include "linespace/picture/patches.h"
 #include "linespace/sight/face_crossings.h"
+#include "linespace/silhouettes/rooms.h"
 #include "linespace/work/stage.h"
 
 namespace sightline::internal {
@@ -134,6 +135,10 @@ Rational ViewScene::exact_plane_value(int face, const ExactPoint& p) const {
 Sign ViewScene::plane_side(int face, int point) const {
   if (!is_constructed(point)) return silhouettes_.face_plane(face)(scene_->point(point));
   return static_cast<Sign>(exact_plane_value(face, exact(point)).sign());
+}
+
+std::vector<int> ViewScene::material_at(const ExactPoint& p) const {
+  return internal::material_at(*scene_, solids_, p);
 }
 
 bool ViewScene::in_line(int a, int b, int p) const {

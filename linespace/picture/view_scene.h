@@ -31,7 +31,9 @@ class ViewScene {
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Silhouettes& silhouettes() const { return silhouettes_; }
-  [[nodiscard]] const SolidIndex& solids() const { return solids_; }
+  /// Closed objects in whose material the point lies strictly (silhouettes/rooms.h),
+  /// ascending.
+  [[nodiscard]] std::vector<int> material_at(const ExactPoint& p) const;
 
   [[nodiscard]] std::span<const ViewLine> lines() const { return lines_; }
   /// The smallest number of all lines that continue this one straight on, with no gap, by

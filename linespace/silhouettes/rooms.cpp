@@ -85,9 +85,11 @@ bool is_empty(const RoomsQuestion& q, int room) {
   return empty;
 }
 
-// Some closed object has the point strictly inside, but for those in whose hollows it is.
+// Closed objects that have the point strictly inside, but for those in whose hollows it
+// is.
 template <class P>
-bool any_but_hollows(const Scene& scene, const SolidIndex& solids, const P& p) {
+std::vector<int> all_but_hollows(const Scene& scene, const SolidIndex& solids,
+                                 const P& p) {
   std::vector<int> around = solids.solids_around(p);
   for (const Scene::Hollow& hollow : scene.hollows()) {
     hear_stop();
@@ -96,7 +98,7 @@ bool any_but_hollows(const Scene& scene, const SolidIndex& solids, const P& p) {
     const auto w = solids.windings(hollow.object, p);
     if (!w || w->solid < 0) around.erase(at);
   }
-  return !around.empty();
+  return around;
 }
 
 }  // namespace
@@ -112,11 +114,18 @@ std::vector<std::uint8_t> empty_rooms(const RoomsQuestion& q) {
 
 bool in_material(const Scene& scene, const SolidIndex& solids, const Point& p) {
   if (scene.hollows().empty()) return solids.in_solid(p);
-  return any_but_hollows(scene, solids, p);
+  return !all_but_hollows(scene, solids, p).empty();
 }
 
 bool in_material(const Scene& scene, const SolidIndex& solids, const ExactPoint& p) {
-  return any_but_hollows(scene, solids, p);
+  return !all_but_hollows(scene, solids, p).empty();
+}
+
+std::vector<int> material_at(const Scene& scene, const SolidIndex& solids,
+                             const ExactPoint& p) {
+  std::vector<int> objects = all_but_hollows(scene, solids, p);
+  std::ranges::sort(objects);
+  return objects;
 }
 
 }  // namespace sightline::internal

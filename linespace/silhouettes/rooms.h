@@ -37,5 +37,8 @@ struct RoomsQuestion {
                                const Point& p);
 [[nodiscard]] bool in_material(const Scene& scene, const SolidIndex& solids,
                                const ExactPoint& p);
+/// These objects, ascending.
+[[nodiscard]] std::vector<int> material_at(const Scene& scene, const SolidIndex& solids,
+                                           const ExactPoint& p);
 
 }  // namespace sightline::internal

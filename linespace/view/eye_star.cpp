@@ -75,7 +75,7 @@ void EyeStar::find_faces() {
 void EyeStar::find_place() {
   const ViewScene& scene = eye_->scene();
   if (faces_.empty()) {
-    ids_ = scene.solids().solids_around(eye_->eye());
+    ids_ = scene.material_at(eye_->eye());
     if (!ids_.empty()) place_ = EyePlace::Inside;
     return;
   }
@@ -155,7 +155,7 @@ bool EyeStar::into_material(const ExactPoint& way) const {
   });
   ExactPoint p = eye_->eye();
   for (int i = 0; i < 3; ++i) p[i] += way[i] * nearest / 2;
-  return !scene.solids().solids_around(p).empty();
+  return !scene.material_at(p).empty();
 }
 
 }  // namespace sightline::internal

@@ -8,9 +8,18 @@ namespace sightline::internal {
 
 LineViewer::LineViewer(const EyeSpace& eye, const EyeStar& star,
                        std::span<const std::uint8_t> possibly_seen)
-    : eye_(&eye), star_(&star), possibly_seen_(possibly_seen) {}
+    : eye_(&eye), star_(&star), tree_(std::vector<Box>{}) {
+  std::vector<Box> boxes;
+  for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
+    if (possibly_seen[f] == 0 || eye.front(f) == Sign::Zero) continue;
+    askable_.push_back(f);
+    boxes.push_back(eye.scene().silhouettes().face_box(f));
+  }
+  tree_ = Bvh(boxes);
+}
 
-void LineViewer::cover(int line, const LineCuts& cuts) {
+// False when one face hides all of the line.
+bool LineViewer::cover(int line, const LineCuts& cuts) {
   find_faces(line);
   covers_.clear();
   for (const int face : faces_) {
@@ -18,14 +27,18 @@ void LineViewer::cover(int line, const LineCuts& cuts) {
       covers_.push_back(*own);
     } else if (auto other = overlap(line, face, cuts)) {
       covers_.push_back(*other);
+      const bool whole = other->from.kind == LineCut::Kind::Start &&
+                         other->to.kind == LineCut::Kind::Finish;
+      if (whole && other->hides && other->left && other->right) return false;
     }
   }
+  return true;
 }
 
 void LineViewer::view(int line, std::vector<LinePiece>& pieces) {
   if (eye_->end_on(line)) return;
   const LineCuts cuts(*eye_, line);
-  cover(line, cuts);
+  if (!cover(line, cuts) && !star_->bounds(line)) return;
   const Scan scan = scan_covers(line, cuts);
   const std::size_t first = pieces.size();
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
@@ -69,7 +82,7 @@ std::optional<LinePiece> LineViewer::piece(int line, const Scan& scan,
 std::optional<std::array<LineCut, 2>> LineViewer::part_in_sight(int line) {
   if (eye_->end_on(line)) return std::nullopt;
   const LineCuts cuts(*eye_, line);
-  cover(line, cuts);
+  if (!cover(line, cuts)) return std::nullopt;
   const Scan scan = scan_covers(line, cuts);
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
     if (scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0)
@@ -89,14 +102,12 @@ void LineViewer::find_faces(int line) {
   faces_.clear();
   const ViewScene& scene = eye_->scene();
   const SightTriangle triangle(*eye_, line);
-  scene.silhouettes().face_tree().traverse(
-      [&](const Box& box) { return !triangle.misses(box); },
-      [&](std::uint32_t face) {
-        if (possibly_seen_[face] == 0) return;
-        if (triangle.misses(scene.silhouettes().face_box(static_cast<int>(face)))) return;
-        if (eye_->front(static_cast<int>(face)) == Sign::Zero) return;
-        faces_.push_back(static_cast<int>(face));
-      });
+  tree_.traverse([&](const Box& box) { return !triangle.misses(box); },
+                 [&](std::uint32_t item) {
+                   const int face = askable_[item];
+                   if (!triangle.misses(scene.silhouettes().face_box(face)))
+                     faces_.push_back(face);
+                 });
 }
 
 // Of a face that has both ends of the line as neighbouring corners.

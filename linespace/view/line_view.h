@@ -10,6 +10,7 @@
 
 #include "linespace/picture/eye_space.h"
 #include "linespace/picture/line_cut.h"
+#include "linespace/space/bvh.h"
 #include "linespace/view/eye_star.h"
 
 namespace sightline::internal {
@@ -41,8 +42,7 @@ struct Suspect {
 /// Finds the pieces of lines.  Keeps scratch: one for a thread.
 class LineViewer {
  public:
-  /// Faces marked 0 in possibly_seen are certainly hidden and are not asked; the span
-  /// must outlive this.
+  /// Faces marked 0 in possibly_seen are certainly hidden and are not asked.
   LineViewer(const EyeSpace& eye, const EyeStar& star,
              std::span<const std::uint8_t> possibly_seen);
 
@@ -76,7 +76,7 @@ class LineViewer {
     std::vector<std::array<bool, 2>> blocked;  // empty for an eye off the scene
   };
 
-  void cover(int line, const LineCuts& cuts);
+  [[nodiscard]] bool cover(int line, const LineCuts& cuts);
   [[nodiscard]] Scan scan_covers(int line, const LineCuts& cuts);
   void find_blocked(int line, const LineCuts& cuts, Scan& scan) const;
   [[nodiscard]] std::optional<LinePiece> piece(int line, const Scan& scan,
@@ -90,7 +90,8 @@ class LineViewer {
 
   const EyeSpace* eye_;
   const EyeStar* star_;
-  std::span<const std::uint8_t> possibly_seen_;
+  std::vector<int> askable_;  // faces that may be seen, and not edge-on
+  Bvh tree_;                  // over their boxes
   std::vector<int> faces_;
   std::vector<Cover> covers_;
   std::vector<Suspect> suspects_;

@@ -4,17 +4,10 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "linespace/picture/classes.h"
 #include "linespace/picture/picture_tree.h"
 
 namespace sightline::internal {
 namespace {
-
-// A linear function that hardly ever takes one value at two points.
-long double key(const PicturePoint& p) {
-  const LongVector& v = p.vector();
-  return 0.5377L * v[0] + 0.8339L * v[1] + 0.1259L * v[2];
-}
 
 class Joiner {
  public:
@@ -63,32 +56,17 @@ void Joiner::number_ends() {
     }
     ends_.push_back(ends);
   }
-  // Others, where they are seen: only points with nearly the same key can be one.
+  // Others, where they are seen.
   const auto n = static_cast<int>(found.size());
-  std::vector<std::pair<long double, int>> keys;
-  long double widest = 0;
-  for (int i = 0; i < n; ++i) {
-    keys.emplace_back(key(found[i]), i);
-    widest = std::max(widest, found[i].error());
-  }
-  std::ranges::sort(keys);
-  Classes classes(found.size());
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    for (std::size_t j = i + 1; j < keys.size(); ++j) {
-      if (keys[j].first - keys[i].first > 4 * widest + 0x1p-58L) break;
-      const int x = keys[i].second, y = keys[j].second;
-      if (classes.root(x) != classes.root(y) && same_point(found[x], found[y]))
-        classes.join(x, y);
-    }
-  }
+  const std::vector<int> first = number_points(found);
   // The representative is a scene point where the class has one.
   std::vector<int> numbers(found.size(), -1), chosen(found.size(), -1);
   for (int i = 0; i < n; ++i) {
-    int& best = chosen[classes.root(i)];
+    int& best = chosen[first[i]];
     if (best < 0 || (found[best].point() < 0 && found[i].point() >= 0)) best = i;
   }
   for (int i = 0; i < n; ++i) {
-    const int root = classes.root(i);
+    const int root = first[i];
     if (numbers[root] < 0) {
       numbers[root] = static_cast<int>(points_.size());
       points_.push_back(found[chosen[root]]);

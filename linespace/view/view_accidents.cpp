@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "linespace/view/first_seen.h"
+#include "linespace/work/stop_scope.h"
 
 namespace sightline::internal {
 namespace {
@@ -38,12 +39,18 @@ class PointInspector {
   [[nodiscard]] bool straight(const Group& group) const;
   [[nodiscard]] int corner(const Group& group) const;
   [[nodiscard]] std::vector<ExactPoint> ways(const Passing& p) const;
+  [[nodiscard]] std::vector<PictureRay> rays(std::span<const Passing> lines) const;
   [[nodiscard]] Accident name() const;
 
   const EyeSpace* eye_;
   std::span<const std::uint8_t> possibly_seen_;
   PicturePoint at_;
-  std::vector<int> faces_;  // with the point in their closed picture
+  // A face with the point in its closed picture, and how near it is there.
+  struct FaceThere {
+    int face;
+    Rational nearness;
+  };
+  std::vector<FaceThere> faces_;  // the nearest first
   std::vector<Group> groups_;
 };
 
@@ -88,70 +95,67 @@ void PointInspector::find_lines() {
                Sign::Negative;
     }
     if (!within) continue;
-    faces_.push_back(face);
+    faces_.push_back({face, Nearness(*eye_, face).at(at_.exact())});
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const int line = eye_->scene().line_of_side(face, static_cast<int>(k));
       if (line >= 0) add_line(line);
     }
     for (const int line : eye_->scene().crossings_of(face)) add_line(line);
   }
+  std::ranges::sort(faces_, [](const FaceThere& x, const FaceThere& y) {
+    return y.nearness < x.nearness;
+  });
+}
+
+// Just beside all passing lines, on either side and either way.
+std::vector<PictureRay> PointInspector::rays(std::span<const Passing> lines) const {
+  std::vector<PictureRay> found;
+  for (const Passing& p : lines) {
+    const auto [a, b] = eye_->scene().lines()[p.line].ends;
+    const ExactPoint n = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
+    for (const ExactPoint& way : ways(p)) {
+      found.push_back({at_, {way, n}});
+      found.push_back({at_, {way, {-n[0], -n[1], -n[2]}}});
+    }
+  }
+  return found;
 }
 
 // Of what is farther than all that is seen around the point, no eye near by sees
 // anything.
 void PointInspector::leave_out_hidden() {
-  std::vector<PictureRay> rays;
+  const FaceThere* farthest = nullptr;
   for (const Group& g : groups_) {
-    for (const Passing& p : g.lines) {
-      const auto [a, b] = eye_->scene().lines()[p.line].ends;
-      const ExactPoint n = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
-      for (const ExactPoint& way : ways(p)) {
-        rays.push_back({at_, {way, n}});
-        rays.push_back({at_, {way, {-n[0], -n[1], -n[2]}}});
-      }
+    for (const PictureRay& ray : rays(g.lines)) {
+      const auto seen = std::ranges::find_if(
+          faces_, [&](const FaceThere& f) { return contains(*eye_, f.face, ray); });
+      if (seen == faces_.end()) return;
+      if (farthest == nullptr || seen->nearness < farthest->nearness) farthest = &*seen;
     }
   }
-  std::optional<Rational> farthest;
-  for (const PictureRay& ray : rays) {
-    const auto seen = first_seen(*eye_, ray, possibly_seen_);
-    if (seen.empty()) return;
-    const Rational here = Nearness(*eye_, seen.front()).at(at_.exact());
-    if (!farthest || here < *farthest) farthest = here;
-  }
-  if (farthest)
-    std::erase_if(groups_, [&](const Group& g) { return g.nearness < *farthest; });
+  if (farthest != nullptr)
+    std::erase_if(groups_,
+                  [&](const Group& g) { return g.nearness < farthest->nearness; });
 }
 
 // Lines between faces of one patch, which cover all around the point, show nothing.
 void PointInspector::leave_out_seams() {
-  const auto only_seams = [&](const Group& g) {
+  const auto patch = [&](int f) {
+    return eye_->scene().patch(eye_->scene().scene().faces()[f].facet,
+                               eye_->front(f) == Sign::Positive);
+  };
+  std::erase_if(groups_, [&](const Group& g) {
     std::vector<int> faces;
-    for (const int f : faces_) {
-      if (Nearness(*eye_, f).at(at_.exact()) == g.nearness) faces.push_back(f);
+    for (const FaceThere& f : faces_) {
+      if (f.nearness == g.nearness) faces.push_back(f.face);
     }
-    const auto patch = [&](int f) {
-      return eye_->scene().patch(eye_->scene().scene().faces()[f].facet,
-                                 eye_->front(f) == Sign::Positive);
-    };
     for (const int f : faces) {
       if (patch(f) != patch(faces.front())) return false;
     }
-    for (const Passing& p : g.lines) {
-      const auto [a, b] = eye_->scene().lines()[p.line].ends;
-      const ExactPoint n = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
-      for (const ExactPoint& way : ways(p)) {
-        for (const ExactPoint& side : {n, ExactPoint{-n[0], -n[1], -n[2]}}) {
-          if (std::ranges::none_of(faces, [&](int f) {
-                return contains(*eye_, f, {at_, {way, side}});
-              })) {
-            return false;
-          }
-        }
-      }
-    }
-    return true;
-  };
-  std::erase_if(groups_, only_seams);
+    return std::ranges::all_of(rays(g.lines), [&](const PictureRay& ray) {
+      return std::ranges::any_of(faces, [&](int f) { return contains(*eye_, f, ray); });
+    });
+  });
 }
 
 // One line of space that goes straight on.
@@ -304,6 +308,7 @@ void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
   std::vector<int> ends;
   for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
     if (possibly_seen[f] == 0 || eye.front(f) != Sign::Zero) continue;
+    hear_stop();
     const int facet = scene.scene().faces()[f].facet;
     for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
       const int line = scene.line_of_side(f, k);
@@ -340,16 +345,14 @@ std::vector<Accident> find_accidents(const EyeSpace& eye, LineViewer& viewer,
   find_edge_on(eye, viewer, possibly_seen, found);
   std::vector<PicturePoint> points;
   for (const Suspect& s : viewer.suspects()) {
-    PicturePoint p =
-        s.point >= 0 ? PicturePoint(eye, s.point) : PicturePoint(eye, s.line, s.cut);
-    if (std::ranges::any_of(points,
-                            [&](const PicturePoint& q) { return same_point(p, q); })) {
-      continue;
-    }
-    points.push_back(std::move(p));
+    points.push_back(s.point >= 0 ? PicturePoint(eye, s.point)
+                                  : PicturePoint(eye, s.line, s.cut));
   }
-  for (const PicturePoint& p : points) {
-    if (auto accident = PointInspector(eye, possibly_seen, p).inspect())
+  const std::vector<int> numbers = number_points(points);
+  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+    hear_stop();
+    if (numbers[i] != i) continue;
+    if (auto accident = PointInspector(eye, possibly_seen, points[i]).inspect())
       found.push_back(std::move(*accident));
   }
   std::ranges::sort(found);

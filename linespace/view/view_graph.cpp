@@ -79,8 +79,10 @@ void GraphBuilder::turn_around(int point, std::vector<int>& leaving) const {
   const PicturePoint& at = graph_.points[point];
   std::vector<PicturePoint> far;
   for (const int h : leaving) far.push_back(far_end(h));
+  const auto line = [&](std::size_t i) { return graph_.edges[leaving[i] / 2].line; };
+  // One line leaves a point only both ways.
   const auto turn = [&](std::size_t i, std::size_t j) {
-    return orient(at, far[i], far[j]);
+    return line(i) == line(j) ? Sign::Zero : orient(at, far[i], far[j]);
   };
   // From the first: 0 itself, 1 less than half a turn, 2 half a turn, 3 more.
   std::vector<int> sector(leaving.size());
@@ -195,9 +197,8 @@ bool GraphBuilder::try_link(int edge, int weight, const PictureTree& tree,
   // The edges that the way crosses, with the half-edge whose left it comes from.
   struct Crossing {
     int half_edge;
-    long double at;
-    Rational exact_at;
-    bool is_exact = false;
+    long double at, error;
+    std::optional<Rational> exact_at;
   };
   std::vector<Crossing> crossings;
   bool generic = true;
@@ -222,25 +223,31 @@ bool GraphBuilder::try_link(int edge, int weight, const PictureTree& tree,
     }
     // Opposite sides both ways; and not on the other side of the sphere.
     if (from == to || from == at_p) return;
+    // Where on the way, as a ratio of the distances of its ends from the edge's line.  An
+    // edge is at least as long as its ends' errors are small.
     const LongVector n = cross(p.vector(), q.vector());
     const long double a = dot(n, start.vector()), b = dot(n, pole.vector());
-    crossings.push_back({from == Sign::Positive ? 2 * e : 2 * e + 1, a / (a - b), 0});
+    const long double off = 8 * (p.error() + q.error() + start.error() + 0x1p-60L);
+    const long double size = std::abs(a) + std::abs(b);
+    crossings.push_back({from == Sign::Positive ? 2 * e : 2 * e + 1,
+                         std::abs(a) / size,
+                         size > 4 * off ? 4 * off / size : 1,
+                         {}});
   });
   if (!generic) return false;
   const auto exact_at = [&](Crossing& c) -> const Rational& {
-    if (!c.is_exact) {
+    if (!c.exact_at) {
       const auto& ends = graph_.edges[c.half_edge / 2].ends;
       const ExactPoint n =
           exact_cross(graph_.points[ends[0]].exact(), graph_.points[ends[1]].exact());
       const Rational a = exact_dot(n, start.exact()), b = exact_dot(n, pole.exact());
-      c.exact_at = a / (a - b);
-      c.is_exact = true;
+      c.exact_at = quotient(a, Rational(a - b));
     }
-    return c.exact_at;
+    return *c.exact_at;
   };
-  for (Crossing& c : crossings) exact_at(c);
-  std::ranges::sort(crossings, [&](const Crossing& x, const Crossing& y) {
-    return x.exact_at < y.exact_at;
+  std::sort(crossings.begin(), crossings.end(), [&](Crossing& x, Crossing& y) {
+    if (std::abs(x.at - y.at) > x.error + y.error) return x.at < y.at;
+    return exact_at(x) < exact_at(y);
   });
 
   int here = first == Sign::Positive ? cycles_[2 * edge] : cycles_[2 * edge + 1];

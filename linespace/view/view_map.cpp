@@ -187,15 +187,21 @@ void MapMaker::add_edge(const Run& run) {
 // Where a line passes a point of the picture, in space.
 Point MapMaker::place(int line, int point) const {
   const auto [a, b] = eye_->scene().lines()[line].ends;
-  const LongVector &u = eye_->vector(a), &v = eye_->vector(b);
-  const LongVector& w = graph_->points[point].vector();
+  const PicturePoint& at = graph_->points[point];
+  if (at.point() == a || at.point() == b) return eye_->scene().position(at.point());
+  const PicturePoint p(*eye_, a), q(*eye_, b);
+  long double length = 0;
+  for (int i = 0; i < 3; ++i)
+    length = std::max(length, std::abs(p.vector()[i] - q.vector()[i]));
+  // Of a line that is seen short, the point tells little.
+  if (at.error() + p.error() + q.error() > 0x1p-52L * length)
+    return rounded(exact_place(line, point));
+  const LongVector &u = eye_->vector(a), &v = eye_->vector(b), &w = at.vector();
   const LongVector m = cross(u, w), n = cross(w, v);
   const long double s = std::sqrt(dot(m, m)), t = std::sqrt(dot(n, n));
-  const Point p = eye_->scene().position(a), q = eye_->scene().position(b);
-  if (graph_->points[point].point() == a) return p;
-  if (graph_->points[point].point() == b) return q;
   const auto share = static_cast<double>(s / (s + t));
-  return p + share * (q - p);
+  const Point from = eye_->scene().position(a), to = eye_->scene().position(b);
+  return from + share * (to - from);
 }
 
 bool MapMaker::share_object(int edge) const {

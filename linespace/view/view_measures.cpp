@@ -2,9 +2,11 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <boost/multiprecision/gmp.hpp>
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <span>
 
 #include "linespace/picture/classes.h"
 
@@ -15,13 +17,15 @@ using LongEigen = Eigen::Matrix<long double, 3, 1>;
 
 LongEigen eigen(const LongVector& v) { return {v[0], v[1], v[2]}; }
 
-// A sum over edges around a point of reference: a point of the first edge, if none is
-// given.
+// Enough digits for eyes as near a face as doubles and fractions of doubles come.
+using LongFloat = boost::multiprecision::number<boost::multiprecision::gmp_float<80>>;
+
+// A sum over the edges of a boundary, each with a point of reference: that of the first
+// edge, if none is given.
 struct Sum {
-  std::optional<LongEigen> reference;
-  long double value = 0;
-  long double size = 0;  // of what was added, absolutely
-  Eigen::Matrix<long double, 3, 1> gradient = LongEigen::Zero();
+  std::optional<int> reference;  // a point of the graph
+  long double value = 0, error = 0;
+  LongEigen gradient = LongEigen::Zero();
   std::vector<int> half_edges;  // of the boundary
 };
 
@@ -33,17 +37,41 @@ class Measurer {
 
   void add(Sum& sum, int half_edge) const {
     const int from = graph_->origin(half_edge), to = graph_->origin(half_edge ^ 1);
-    const LongEigen &u = points_[from], &v = points_[to];
-    if (!sum.reference) sum.reference = u;
+    if (!sum.reference) sum.reference = from;
     sum.half_edges.push_back(half_edge);
-    const LongEigen& r = *sum.reference;
-    const long double det = r.dot(LongEigen(u - r).cross(LongEigen(v - r)));
-    // Twice the area of a triangle; or its solid angle (van Oosterom and Strackee, 1983).
-    const long double part =
-        eye_->is_direction() ? det / 2
-                             : 2 * std::atan2(det, 1 + r.dot(u) + u.dot(v) + v.dot(r));
-    sum.value += part;
-    sum.size += std::abs(part);
+    const LongEigen &r = points_[*sum.reference], &u = points_[from], &v = points_[to];
+    const LongEigen du = u - r, dv = v - r;
+    const long double det = r.dot(du.cross(dv));
+    if (eye_->is_direction()) {  // twice the area of a triangle
+      sum.value += det / 2;
+      sum.error += 0x1p-60L * (du.norm() + dv.norm()) * (1 + r.norm());
+      return;
+    }
+    // Its solid angle (van Oosterom and Strackee, 1983).
+    const long double rest = 1 + r.dot(u) + u.dot(v) + v.dot(r);
+    // Where three points lie nearly on one great circle around the eye, both vanish.
+    sum.value += std::max(std::abs(det), std::abs(rest)) < 0x1p-12L
+                     ? accurate_angle(*sum.reference, from, to)
+                     : 2 * std::atan2(det, rest);
+  }
+
+  // Round the eye, seen from a point: a boundary that no half-sphere holds has another
+  // reference.
+  [[nodiscard]] bool within_half_sphere(std::span<const int> half_edges) const {
+    const LongEigen& r = points_[graph_->origin(half_edges.front())];
+    return std::ranges::all_of(
+        half_edges, [&](int h) { return r.dot(points_[graph_->origin(h)]) > 0x1p-3L; });
+  }
+  /// Boundaries round the eye: any point of the sphere will do that is not on them.
+  [[nodiscard]] long double angle_around(std::span<const int> half_edges) const {
+    const LongEigen r(0.36L, -0.48L, 0.8L);
+    long double sum = 0;
+    for (const int h : half_edges) {
+      const LongEigen &u = points_[graph_->origin(h)],
+                      &v = points_[graph_->origin(h ^ 1)];
+      sum += 2 * std::atan2(r.dot(u.cross(v)), 1 + r.dot(u) + u.dot(v) + v.dot(r));
+    }
+    return sum;
   }
 
   // Of the solid angle on the left of a half-edge, with the eye.  The arc has the normal
@@ -68,7 +96,7 @@ class Measurer {
   [[nodiscard]] double value(const Sum& sum) const {
     if (!eye_->is_direction()) return static_cast<double>(sum.value);
     long double area = sum.value;
-    if (std::abs(area) < 0x1p-10L * sum.size) area = exact_area(sum);
+    if (!(sum.error < 1e-14L * std::abs(area))) area = exact_area(sum);
     return static_cast<double>(area * eye_->area_factor());
   }
 
@@ -89,6 +117,29 @@ class Measurer {
       twice += (u[0] * v[1] - u[1] * v[0]) / (u[2] * v[2]);
     }
     return long_double(twice) / 2;
+  }
+
+  // 2 atan2 of both, over vectors a, b, c of any length: det(a, b, c) and
+  // |a| |b| |c| + (a . b) |c| + (b . c) |a| + (c . a) |b|.
+  [[nodiscard]] long double accurate_angle(int r, int from, int to) const {
+    const std::array<int, 3> points{r, from, to};
+    if (r == from || r == to) return 0;
+    std::array<std::array<LongFloat, 3>, 3> v;
+    std::array<LongFloat, 3> length;
+    for (int i = 0; i < 3; ++i) {
+      const ExactPoint& exact = graph_->points[points[i]].exact();
+      for (int j = 0; j < 3; ++j) v[i][j] = LongFloat(exact[j]);
+      length[i] = sqrt(dot(v[i], v[i]));
+    }
+    const LongFloat det = dot(v[0], cross(v[1], v[2]));
+    LongFloat rest = length[0] * length[1] * length[2];
+    for (int i = 0; i < 3; ++i) {
+      rest += dot(v[i], v[(i + 1) % 3]) * length[(i + 2) % 3];
+    }
+    const LongFloat size = abs(det) + abs(rest);
+    if (size == 0) return 0;
+    return 2 * std::atan2(LongFloat(det / size).convert_to<long double>(),
+                          LongFloat(rest / size).convert_to<long double>());
   }
 
   const EyeSpace* eye_;
@@ -133,11 +184,6 @@ ViewMeasures measure(const EyeSpace& eye, const ViewGraph& graph,
   const Measurer measurer(eye, graph);
   std::map<int, Sum> facets;
   std::vector<Sum> regions(background.size());
-  // The background may reach round the eye: no point of it will do for a reference.
-  for (std::size_t r = 0; r < regions.size(); ++r) {
-    if (background[r] && !eye.is_direction())
-      regions[r].reference = LongEigen(0.36L, -0.48L, 0.8L);
-  }
   for (int h = 0; h < static_cast<int>(graph.region.size()); ++h) {
     const int here = graph.region[h], there = graph.region[h ^ 1];
     if (region_of[here] < 0) continue;
@@ -171,10 +217,17 @@ ViewMeasures measure(const EyeSpace& eye, const ViewGraph& graph,
                         std::ranges::none_of(region_of, [](int r) { return r < 0; });
   for (std::size_t r = 0; r < regions.size(); ++r) {
     if (!background[r]) continue;
-    const double value = measurer.value(regions[r]);
-    measures.regions[r] = only_one    ? kSphere - of_facets
-                          : value < 0 ? value + kSphere
-                                      : value;
+    if (only_one) {
+      measures.regions[r] = kSphere - of_facets;
+      continue;
+    }
+    // The boundary of what lies around all else runs clockwise, seen from near it.
+    const auto& edges = regions[r].half_edges;
+    const auto value =
+        static_cast<double>(edges.empty() || measurer.within_half_sphere(edges)
+                                ? regions[r].value
+                                : measurer.angle_around(edges));
+    measures.regions[r] = value > 0 ? value : value + kSphere;
   }
   return measures;
 }

@@ -20,7 +20,9 @@ bool is_integer(std::string_view text) {
 
 Rational coordinate(const std::string& text) {
   const auto refuse = [&]() -> Rational {
-    throw InvalidInput("'" + text + "' is no coordinate: a number or a fraction p/q");
+    std::string message("'");
+    throw InvalidInput(
+        message.append(text).append("' is no coordinate: a number or a fraction p/q"));
   };
   if (const auto slash = text.find('/'); slash != std::string::npos) {
     const std::string p = text.substr(0, slash), q = text.substr(slash + 1);

@@ -173,7 +173,9 @@ Cut cut(const Cone& cone, const std::vector<Ray>& half_spaces) {
   return result;
 }
 
-double solid_angle(const Cone& cone) {
+namespace {
+
+long double angle_in_octant(const Cone& cone) {
   // Van Oosterom and Strackee, 1983, on a fan of triangles; the determinant is exact, so
   // that slivers are as good as other triangles.
   const auto rounded_dot = [](const Ray& a, const Ray& b) {
@@ -208,6 +210,23 @@ double solid_angle(const Cone& cone) {
     const long double bottom =
         1 + cosine(c[0], c[i]) + cosine(c[i], c[i + 1]) + cosine(c[i + 1], c[0]);
     sum += 2 * std::atan2(top, bottom);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double solid_angle(const Cone& cone) {
+  // In one octant no angle is above a quarter turn, so that nothing cancels.
+  long double sum = 0;
+  for (int octant = 0; octant < 8; ++octant) {
+    std::optional<Cone> part = cone;
+    for (int i = 0; i < 3 && part; ++i) {
+      std::array<Integer, 3> axis{0, 0, 0};
+      axis[i] = (octant >> i & 1) != 0 ? 1 : -1;
+      part = clip(*part, Ray(axis));
+    }
+    if (part) sum += angle_in_octant(*part);
   }
   return static_cast<double>(sum);
 }

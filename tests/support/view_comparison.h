@@ -33,6 +33,10 @@ class SceneComparison {
   [[nodiscard]] std::vector<std::string> structure_differences(
       const std::vector<NaiveEye>& eyes) const;
 
+  /// Gradients against differences of naive solid angles at twelve eyes near by, where
+  /// these have the same structure and third derivatives are small.
+  [[nodiscard]] std::vector<std::string> gradient_differences(const NaiveEye& eye) const;
+
  private:
   NaiveViewer viewer_;
   PointViewIndex index_;
@@ -47,6 +51,7 @@ struct ViewRun {
   int eyes;              ///< a scene
   std::uint64_t seed;    ///< another choice of eyes
   bool general;          ///< compare `general` too, and structures
+  int every = 1;         ///< of this many scenes one
   bool on_scene = true;  ///< eyes on facets, edges and corners too
   int most_reports = 10;
 };

@@ -52,6 +52,23 @@ PolygonSoup room(std::uint64_t seed) {
   return soup;
 }
 
+/// A house of two rooms side by side, each an inner shell of its own, with a box in each;
+/// some rooms share a wall without thickness.
+PolygonSoup house(std::uint64_t seed) {
+  Random random(seed);
+  PolygonSoup soup;
+  const double wall = random.integer(0, 1);
+  add_box(soup, "house", {-1, -1, -1}, {9, 5, 4});
+  add_room(soup, "left", {0, 0, 0}, {4 - wall, 4, 3});
+  add_room(soup, "right", {4, 0, 0}, {8, 4, 3});
+  for (int i = 0; i < 2; ++i) {
+    const double x = 4 * i + random.integer(0, 1), y = random.integer(0, 2);
+    add_box(soup, ("box" + std::to_string(i)).c_str(), {x, y, 0},
+            {x + 1, y + 2, random.integer(1, 3) * 1.0});
+  }
+  return soup;
+}
+
 /// Upright and level rectangles and slanted triangles, which cross, on small integers.
 PolygonSoup sheets(std::uint64_t seed) {
   Random random(seed);
@@ -139,9 +156,10 @@ Rational fraction(Random& random, int low, int high) {
 Vec3 anywhere(Random& random, const Scene& scene) {
   const int way = random.integer(0, 2);
   Vec3 result;
+  const double far = random.one_in(12) ? 0x1p40 : 1;
   for (int i = 0; i < 3; ++i) {
     const double low = scene.bounds()[0][i], high = scene.bounds()[1][i];
-    const double margin = high - low + 1;
+    const double margin = far * (high - low + 1);
     const double x = random.uniform(low - margin, high + margin);
     if (way == 0) result[i] = Rational(x);
     if (way == 1) result[i] = Rational(std::round(x));
@@ -205,6 +223,7 @@ Vec3 special_direction(Random& random, const Scene& scene, bool along) {
     } else {
       result = fraction(random, -3, 3) * u + fraction(random, -3, 3) * v;
     }
+    if (random.one_in(8)) result[random.integer(0, 2)] += Rational(0x1p-60);
   }
   return result;
 }
@@ -249,6 +268,11 @@ std::vector<ViewScene> view_scenes() {
     add_seeds(sightline::testing::name(crowd), 4,
               [&](std::uint64_t s) { return crowded_scene(crowd, s); });
   }
+  add_seeds("house", 4, house);
+  add_seeds("room of triangles", 2,
+            [](std::uint64_t s) { return cut_into_triangles(room(s + 20)); });
+  add_seeds("larger city", 2, [](std::uint64_t s) { return grid_city(s, 96); });
+  add_seeds("larger crowd", 2, [](std::uint64_t s) { return random_boxes(s, 16); });
   return result;
 }
 
@@ -265,6 +289,10 @@ std::vector<NaiveEye> view_eyes(const Scene& scene, std::uint64_t seed, int coun
     } else {
       at =
           third == 0 ? anywhere(random, scene) : special_point(random, scene, third == 2);
+      if (third != 0 && random.one_in(8)) {
+        // Not quite there.
+        for (Rational& x : at) x += Rational(random.integer(-9, 9) * 0x1p-60);
+      }
     }
     result.push_back({direction ? Viewpoint::Kind::Direction : Viewpoint::Kind::Eye, at});
   }

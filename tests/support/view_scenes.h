@@ -16,14 +16,15 @@ struct ViewScene {
   PolygonSoup soup;
 };
 
-/// 97 scenes of 10 to 100 faces, the same on every machine: polytopes in general
+/// 107 scenes of 10 to 100 faces, the same on every machine: polytopes in general
 /// position, boxes on integer grids, touching and flush ones, rooms with furniture,
 /// sheets that cross, frames, cuts into triangles, facets that coincide.
 [[nodiscard]] std::vector<ViewScene> view_scenes();
 
 /// `count` eyes and directions: a third anywhere, as doubles, small integers or
 /// fractions; a third in planes of faces and on lines of edges; a third on facets, edges
-/// and corners (directions: along edges, in faces, across faces).
+/// and corners (directions: along edges, in faces, across faces).  Some are 2^-60 beside
+/// that, some 2^40 scene sizes away.
 [[nodiscard]] std::vector<NaiveEye> view_eyes(const Scene& scene, std::uint64_t seed,
                                               int count);
 

@@ -290,6 +290,65 @@ TEST(ViewDrawing, WhatIsOutsideOfTheWindowIsLeftOut) {
   EXPECT_NEAR(area(drawing.regions[1].rings), 0.5, 1e-12);
 }
 
+bool holds(const DrawnRegion& region, const PlanePoint& p) {
+  bool inside = false;
+  for (const std::vector<PlanePoint>& ring : region.rings) {
+    for (std::size_t i = 0; i < ring.size(); ++i) {
+      const PlanePoint &a = ring[i], &b = ring[(i + 1) % ring.size()];
+      if ((a.y() > p.y()) == (b.y() > p.y())) continue;
+      const double x = a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+      if (x > p.x()) inside = !inside;
+    }
+  }
+  return inside;
+}
+
+// The same room by a z-buffer, which knows nothing of maps and windows: but for pixels on
+// edges, the same facets in the same places.
+TEST(ViewDrawing, APictureFromWithinAgreesWithAZBuffer) {
+  constexpr int kPixels = 120;
+  const Scene scene(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj"));
+  Drawing faces;
+  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    const auto corners = scene.face_points(static_cast<int>(f));
+    for (std::size_t i = 2; i < corners.size(); ++i) {
+      faces.triangles.push_back({{scene.point(corners[0]), scene.point(corners[i - 1]),
+                                  scene.point(corners[i])},
+                                 {1, 1, 1},
+                                 false,
+                                 scene.faces()[f].facet});
+    }
+  }
+  const PointViewIndex index(scene);
+  PictureWish wish;
+  wish.up = Point(0, 1, 0);
+  wish.field_of_view = 1.9;
+  for (const auto& [eye, at] : {std::pair(Point(5, 1.6, 4), Point(1, 1, 1)),
+                                {Point(0.7, 2.1, 0.9), Point(4, 0.2, 3.1)}}) {
+    wish.towards = at;
+    const PointView view = index.view(eye_at(eye));
+    const ViewDrawing drawing = view_drawing(scene, view, wish);
+    const std::vector<int> ids =
+        visible_ids(faces, {eye, at, *wish.up, *wish.field_of_view}, kPixels, kPixels);
+    const double reach = std::tan(*wish.field_of_view / 2);
+    int different = 0;
+    for (int i = 0; i < kPixels * kPixels; ++i) {
+      const PlanePoint p(reach * ((i % kPixels + 0.5) * 2 / kPixels - 1),
+                         reach * (1 - (i / kPixels + 0.5) * 2 / kPixels));
+      int found = 0, right = 0;
+      for (const DrawnRegion& region : drawing.regions) {
+        if (!holds(region, p)) continue;
+        ++found;
+        right += static_cast<int>(
+            std::ranges::count(view.regions[region.region].facets, ids[i]));
+      }
+      EXPECT_LE(found, 1);
+      if (ids[i] < 0 ? found != 0 : right != 1) ++different;
+    }
+    EXPECT_LE(different, 5) << "of " << kPixels * kPixels;
+  }
+}
+
 TEST(ViewSvg, IsWellFormedAndHoldsEachLineOnce) {
   const Scene scene = box({0, 0, 0}, {1, 1, 1}, "a<b>&\"c\xFC");
   const PointView view = convex_view(scene, plain_viewpoint(Kind::Eye, {6, 5, 4}));
@@ -500,6 +559,24 @@ TEST_F(ViewVtk, RegionsCoverWhatIsSeen) {
     sum += (b - a).cross(c - a).norm() / 2;
   }
   EXPECT_NEAR(sum, expected, 1e-9);
+}
+
+// An eye inside a cube sees the backs of its faces: each is one polygon, turned to it.
+TEST_F(ViewVtk, BacksAreTurnedToTheEye) {
+  const Scene scene = cube();
+  const Point eye(0.3, 0.4, 0.55);
+  const PointView view = PointViewIndex(scene).view(eye_at(eye));
+  const ViewDrawing drawing = view_drawing(scene, view);
+  write_vtk_views(folder_, scene, {{&view, &drawing}});
+  const VtkPicture regions = read_vtk(folder_ / "view0_regions.vtp");
+  EXPECT_EQ(regions.veils.size(), 12U);
+  double sum = 0;
+  for (const VeilTriangle& veil : regions.veils) {
+    const auto& [a, b, c] = veil.points;
+    EXPECT_GT((b - a).cross(c - a).dot(eye - a), 0);
+    sum += solid_angle(a - eye, b - eye, c - eye);
+  }
+  EXPECT_NEAR(sum, 4 * M_PI, 1e-12);
 }
 
 TEST_F(ViewVtk, ARegionWithAHoleIsCut) {

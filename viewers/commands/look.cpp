@@ -161,10 +161,14 @@ AllSeen see(Session& session, const LookOptions& options, const Scene& scene,
   request.threads = options.threads;
   const PointViewIndex index(scene, request);
   session.limit(request);
-  // Several views share the threads.
+  session.begin("views");
+  // Several views share the threads, and progress counts them; a single one tells its
+  // own.
   Request of_one = request;
-  of_one.progress = nullptr;
-  if (questions.size() > 1) of_one.threads = 1;
+  if (questions.size() > 1) {
+    of_one.progress = nullptr;
+    of_one.threads = 1;
+  }
   AllSeen all;
   const auto step = [&](int&, std::size_t i) {
     PointView view = view_of(index, questions[i], of_one);
