@@ -147,20 +147,23 @@ std::vector<int> seen_only_in(const PointView& x, const PointView& y) {
 
 namespace {
 
-// All that is in one line of sight lies in the facet's plane.
-bool in_plane_of(const Scene& scene, int facet, const PathEvent& event) {
+// From the facet's plane all that lies in it is seen in one line.  Does that alone bring
+// the event's generators together: all of them, or two of three edges?
+bool made_by(const Scene& scene, int facet, const PathEvent& event) {
   const auto t = plane_points(scene, scene.facets()[facet].faces.front());
   const auto holds = [&](int p) {
     return orient3d(scene.point(t[0]), scene.point(t[1]), scene.point(t[2]),
                     scene.point(p)) == Sign::Zero;
   };
-  return std::ranges::all_of(event.generators, [&](const Generator& g) {
-    if (g.kind == GeneratorKind::Vertex) return holds(g.id);
+  const auto beside = std::ranges::count_if(event.generators, [&](const Generator& g) {
+    if (g.kind == GeneratorKind::Vertex) return !holds(g.id);
     if (g.kind == GeneratorKind::Edge) {
-      return std::ranges::all_of(scene.edges()[g.id].points, holds);
+      return !std::ranges::all_of(scene.edges()[g.id].points, holds);
     }
-    return g.id == facet;
+    return g.id != facet;
   });
+  const auto all = std::ssize(event.generators);
+  return beside == 0 || (event.kind == PathEventKind::EEE && beside == 1 && all > 2);
 }
 
 }  // namespace
@@ -191,7 +194,7 @@ std::vector<PathEvent> events_of(const Scene& scene, const PointView& at,
   const auto part_of_another = [&](const PathEvent& e) {
     if (e.kind == PathEventKind::F || e.kind == PathEventKind::Through) return false;
     return std::ranges::any_of(edge_on,
-                               [&](int facet) { return in_plane_of(scene, facet, e); });
+                               [&](int facet) { return made_by(scene, facet, e); });
   };
   if (!std::ranges::all_of(events, part_of_another)) {
     std::erase_if(events, part_of_another);

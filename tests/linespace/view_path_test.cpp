@@ -307,11 +307,11 @@ TEST(ViewPath, ABudgetEndsItEarly) {
 }
 
 TEST(ViewPathOracle, ViewsAndChangesOfRandomPaths) {
-  const testing::PathReport report = testing::compare_paths({.paths = 2, .seed = 1});
+  const testing::PathReport report = testing::compare_paths({.paths = 1, .seed = 1});
   for (const std::string& d : report.differences) ADD_FAILURE() << d;
   std::cout << report.paths << " paths, " << report.changes << " changes, "
             << report.events << " events, " << report.views << " views\n";
-  EXPECT_GT(report.changes, 1000);
+  EXPECT_GT(report.changes, 500);
 }
 
 }  // namespace

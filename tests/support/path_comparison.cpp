@@ -71,6 +71,7 @@ class Comparison {
     }
     check_order(walk);
     check_changes(walk);
+    check_beside_changes(walk, kind, places, random);
     for (int i = 0; i < run_->eyes; ++i) {
       const auto segment =
           static_cast<std::size_t>(random.integer(0, static_cast<int>(path.size()) - 2));
@@ -129,6 +130,24 @@ class Comparison {
     }
   }
 
+  // The views just before and just after some of the changes are those of the stretches
+  // that they end and begin.
+  void check_beside_changes(const ViewPath& walk, Viewpoint::Kind kind,
+                            const std::vector<ExactPoint>& places, Random& random) {
+    constexpr double kBeside = 0x1p-40;
+    for (int i = 0; i < std::min(4, static_cast<int>(walk.changes.size())); ++i) {
+      const PathChange& c =
+          walk.changes[random.integer(0, static_cast<int>(walk.changes.size()) - 1)];
+      for (const double u : {c.u - kBeside, c.u + kBeside}) {
+        if (u <= 0 || u >= 1) continue;
+        const Number exact(u);
+        check_view(walk, c.segment, exact,
+                   {kind, exact_position(
+                              along(places[c.segment], places[c.segment + 1], exact))});
+      }
+    }
+  }
+
   static bool sees(const PointView& view, int facet) {
     return std::ranges::find(view.facets, facet, &SeenFacet::facet) != view.facets.end();
   }
@@ -141,7 +160,7 @@ class Comparison {
     });
     if (stretch == walk.stretches.end()) return tell("no stretch");
     // On an event, or within rounding of one.
-    if (at - stretch->u_from < 1e-12 || stretch->u_to - at < 1e-12) return;
+    if (at - stretch->u_from < 0x1p-48 || stretch->u_to - at < 0x1p-48) return;
     const PointView view = index_.view(eye);
     ++report_->views;
     if (view.general != stretch->view->general) {
