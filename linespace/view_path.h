@@ -22,63 +22,15 @@
 
 #pragma once
 
-#include <optional>
 #include <span>
-#include <vector>
 
+#include "linespace/path_events.h"
 #include "linespace/point_view.h"
 
 namespace sightline {
 
-enum class PathEventKind : std::uint8_t {
-  EV,      ///< a corner, or a point in which edges touch, and an edge, or two corners
-  EEE,     ///< three edges in one line of sight
-  F,       ///< a facet seen edge-on
-  Through  ///< the eye passes through a facet, an edge or a corner
-};
-
-struct PathEvent {
-  PathEventKind kind;
-  /// What is in one line of sight; F: the facet; Through: what the eye passes through.
-  /// Ascending.
-  std::vector<Generator> generators;
-  friend auto operator<=>(const PathEvent&, const PathEvent&) = default;
-};
-
-/// Numbers of the map's elements.
-struct MapCounts {
-  int corners = 0, t_vertices = 0, touches = 0, accident_vertices = 0;
-  int edges = 0, regions = 0, components = 0;
-  friend bool operator==(const MapCounts&, const MapCounts&) = default;
-};
+/// Of a view's map.
 [[nodiscard]] MapCounts map_counts(const PointView& view);
-
-/// A position at which the labelled structure changes.
-struct PathChange {
-  int segment;
-  double u;  ///< within 2^-50
-  /// All events at this position, at least one, ascending.
-  std::vector<PathEvent> events;
-  /// Facets of which area is seen after and not before, and the other way round; front
-  /// and back of a facet count as two.  Ascending.
-  std::vector<int> appears, vanishes;
-  MapCounts difference;  ///< after less before
-};
-
-/// A part of a segment on which the labelled structure is the same.
-struct PathStretch {
-  int segment;
-  double u_from, u_to;
-  /// From some eye of it; nullopt if not asked for.
-  std::optional<PointView> view;
-};
-
-struct ViewPath {
-  std::vector<PathChange> changes;     ///< in order
-  std::vector<PathStretch> stretches;  ///< in order; they cover all of every segment
-  /// False when budget or stop ended the work: then both lists end early.
-  bool complete = true;
-};
 
 /// Walks along the path.  Laws:
 /// 1. Two neighbouring stretches of one segment have different structures, and there is a

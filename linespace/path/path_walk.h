@@ -28,7 +28,7 @@
 #include <vector>
 
 #include "linespace/path/path_candidates.h"
-#include "linespace/view_path.h"
+#include "linespace/path_events.h"
 
 namespace sightline::internal {
 

@@ -11,7 +11,7 @@
 
 #include "linespace/path/path_scene.h"
 #include "linespace/path/rounded_sight.h"
-#include "linespace/point_view.h"
+#include "linespace/visibility_map.h"
 
 namespace sightline::internal {
 
