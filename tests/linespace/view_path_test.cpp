@@ -247,6 +247,46 @@ TEST(ViewPath, OnAFacet) {
             (std::vector<PathEvent>{{PathEventKind::Through, {edge(side)}}}));
 }
 
+// Between two boxes nothing is seen, and then all at once.
+TEST(ViewPath, OutOfAContact) {
+  const Scene scene(
+      testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}, {{0, 0, 1}, {1, 1, 2}}}));
+  const ViewPath found = walk(scene, eyes({{0.5, 0.25, 1}, {2.5, 0.25, 1}}));
+  ASSERT_EQ(found.stretches.size(), 2U);
+  EXPECT_TRUE(found.stretches[0].view->edges.empty());
+  EXPECT_FALSE(found.stretches[1].view->edges.empty());
+  EXPECT_EQ(found.stretches[1].u_from, 0.25);
+}
+
+// A box juts out over the side of a floor; where its lower edge crosses the floor's, no
+// corner is, and it comes out behind a wall.
+TEST(ViewPath, ATouchBehindAnEdge) {
+  PolygonSoup soup = testing::boxes_soup({{{1, 4, 0}, {4, 6, 1}}});
+  const auto add = [&](const char* name, const std::vector<Point>& corners) {
+    const auto n = static_cast<int>(soup.polygons.size());
+    soup.groups.push_back({name, {n}});
+    soup.polygons.emplace_back();
+    for (const Point& p : corners) {
+      soup.polygons.back().push_back(static_cast<int>(soup.vertices.size()));
+      soup.vertices.push_back(p);
+    }
+  };
+  add("floor", {{-20, 3, 0}, {2, 3, 0}, {2, 7, 0}, {-20, 7, 0}});
+  add("wall", {{0, 0, -10}, {0, 0, 10}, {-10, 0, 10}, {-10, 0, -10}});
+  const Scene scene(std::move(soup));
+  // In line with (0, 0) and (2, 4).
+  const ViewPath found = walk(scene, eyes({{-1.25, -2, 3}, {-0.75, -2, 3}}));
+  ASSERT_EQ(found.changes.size(), 1U);
+  EXPECT_DOUBLE_EQ(found.changes[0].u, 0.5);
+  std::vector<Generator> edges{edge(edge_between(scene, {1, 4, 0}, {4, 4, 0})),
+                               edge(edge_between(scene, {2, 3, 0}, {2, 7, 0})),
+                               edge(edge_between(scene, {0, 0, -10}, {0, 0, 10}))};
+  std::ranges::sort(edges);
+  EXPECT_EQ(found.changes[0].events,
+            (std::vector<PathEvent>{{PathEventKind::EV, edges}}));
+  EXPECT_EQ(std::abs(found.changes[0].difference.touches), 1);
+}
+
 // Two boxes on one another look like one, and cuts are no edges.
 TEST(ViewPath, SeamsChangeNothing) {
   const Scene boxes(
