@@ -346,6 +346,14 @@ TEST(ViewPath, ABudgetEndsItEarly) {
       view_path(index, eyes({{3, 3, 0.5}, {-2, 3, 0.5}}), true, request).complete);
 }
 
+TEST(ViewPathOracle, WhereFacesCross) {
+  const testing::PathReport report =
+      testing::compare_paths({.paths = 1, .seed = 2, .crossing = true});
+  for (const std::string& d : report.differences) ADD_FAILURE() << d;
+  std::cout << report.paths << " paths, " << report.changes << " changes, "
+            << report.events << " events, " << report.views << " views\n";
+}
+
 TEST(ViewPathOracle, ViewsAndChangesOfRandomPaths) {
   const testing::PathReport report = testing::compare_paths({.paths = 1, .seed = 1});
   for (const std::string& d : report.differences) ADD_FAILURE() << d;

@@ -193,7 +193,7 @@ PathReport compare_paths(const PathRun& run) {
   for (const ViewScene& named : view_scenes()) {
     ++number;
     const Scene scene(named.soup);
-    if (crosses(scene)) continue;
+    if (crosses(scene) != run.crossing) continue;
     Random random(1000 * run.seed + number);
     Comparison comparison(scene, run, report);
     for (int i = 0; i < run.paths; ++i) {

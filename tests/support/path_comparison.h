@@ -11,9 +11,10 @@
 namespace sightline::testing {
 
 struct PathRun {
-  int paths;           ///< a scene
-  std::uint64_t seed;  ///< another choice of paths
-  int eyes = 20;       ///< at which the view is computed anew, a path
+  int paths;              ///< a scene
+  std::uint64_t seed;     ///< another choice of paths
+  int eyes = 20;          ///< at which the view is computed anew, a path
+  bool crossing = false;  ///< scenes whose faces cross, instead of the others
   int most_reports = 10;
 };
 
@@ -23,8 +24,8 @@ struct PathReport {
   std::vector<std::string> differences;
 };
 
-/// Segments and great circles in those of view_scenes() whose faces do not cross.  A
-/// third of the viewpoints are small integers, a third fractions, a third any doubles.
+/// Segments and great circles in those of view_scenes() whose faces do not cross, or do.
+/// A third of the viewpoints are small integers, a third fractions, a third any doubles.
 [[nodiscard]] PathReport compare_paths(const PathRun& run);
 
 }  // namespace sightline::testing
