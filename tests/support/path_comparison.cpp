@@ -1,5 +1,6 @@
 #include "tests/support/path_comparison.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -56,7 +57,7 @@ ExactPoint some_way(Random& random) {
 class Comparison {
  public:
   Comparison(const Scene& scene, const PathRun& run, PathReport& report)
-      : index_(scene), run_(&run), report_(&report) {}
+      : scene_(&scene), index_(scene), run_(&run), report_(&report) {}
 
   void compare(Viewpoint::Kind kind, const std::vector<ExactPoint>& places,
                Random& random) {
@@ -68,6 +69,11 @@ class Comparison {
     for (const PathChange& c : walk.changes) {
       report_->events += static_cast<int>(c.events.size());
       if (c.events.empty()) tell("no event at " + std::to_string(c.u));
+      const ExactPoint eye = along(places[c.segment], places[c.segment + 1], Number(c.u));
+      for (const PathEvent& event : c.events) {
+        if (!lines_up(event, kind, internal::rounded(eye)))
+          tell("nothing lines up at " + std::to_string(c.u));
+      }
     }
     check_order(walk);
     check_changes(walk);
@@ -83,6 +89,55 @@ class Comparison {
   }
 
  private:
+  // In doubles: one line of sight meets all generators.
+  [[nodiscard]] bool lines_up(const PathEvent& event, Viewpoint::Kind kind,
+                              const Point& eye) const {
+    constexpr double kNear = 1e-6;
+    using Vector = Eigen::Vector3d;
+    const auto sight = [&](const Point& x) {
+      return kind == Viewpoint::Kind::Eye ? Vector(x - eye) : Vector(-eye);
+    };
+    std::optional<Point> on;  // some point of the line of sight
+    for (const Generator& g : event.generators) {
+      if (g.kind == GeneratorKind::Face) {
+        const auto& facet = scene_->facets()[g.id];
+        const auto c = scene_->face_points(facet.faces.front());
+        const Point& p = scene_->point(c[0]);
+        const Vector n =
+            (scene_->point(c[1]) - p).cross(scene_->point(c[2]) - p).normalized();
+        const double far = std::max(1.0, sight(p).norm());
+        if (event.kind == PathEventKind::F && std::abs(n.dot(sight(p))) > kNear * far)
+          return false;
+      } else if (g.kind == GeneratorKind::Vertex && !on) {
+        on = scene_->point(g.id);
+      }
+    }
+    if (event.kind == PathEventKind::F || event.kind == PathEventKind::Through)
+      return true;
+    std::vector<std::array<Point, 2>> edges;
+    for (const Generator& g : event.generators) {
+      if (g.kind != GeneratorKind::Edge) continue;
+      const auto& ends = scene_->edges()[g.id].points;
+      edges.push_back({scene_->point(ends[0]), scene_->point(ends[1])});
+    }
+    // Where the first two edges that cross in the picture do so.
+    for (std::size_t i = 0; !on && i < edges.size(); ++i) {
+      for (std::size_t j = 0; !on && j < i; ++j) {
+        const Vector n = sight(edges[j][0]).cross(edges[j][1] - edges[j][0]).normalized();
+        const Vector along_i = edges[i][1] - edges[i][0];
+        const double rise = n.dot(along_i);
+        if (std::abs(rise) < 1e-3 * along_i.norm()) continue;
+        on = edges[i][0] + n.dot(edges[j][0] - edges[i][0]) / rise * along_i;
+      }
+    }
+    return !on || std::ranges::all_of(edges, [&](const auto& e) {
+      const Vector n = sight(*on).cross(e[1] - e[0]);
+      const double size = sight(*on).norm() * (e[1] - e[0]).norm();
+      return std::abs(n.dot(e[0] - *on)) <=
+             kNear * size * std::max(1.0, (e[0] - *on).norm());
+    });
+  }
+
   void tell(const std::string& text) { report_->differences.push_back(text); }
 
   void check_order(const ViewPath& walk) {
@@ -172,6 +227,7 @@ class Comparison {
     }
   }
 
+  const Scene* scene_;
   PointViewIndex index_;
   const PathRun* run_;
   PathReport* report_;
@@ -191,7 +247,7 @@ PathReport compare_paths(const PathRun& run) {
   PathReport report;
   std::uint64_t number = 0;
   for (const ViewScene& named : view_scenes()) {
-    ++number;
+    if (++number % static_cast<std::uint64_t>(run.every) != 0) continue;
     const Scene scene(named.soup);
     if (crosses(scene) != run.crossing) continue;
     Random random(1000 * run.seed + number);

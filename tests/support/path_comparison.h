@@ -14,6 +14,7 @@ struct PathRun {
   int paths;              ///< a scene
   std::uint64_t seed;     ///< another choice of paths
   int eyes = 20;          ///< at which the view is computed anew, a path
+  int every = 1;          ///< only each scene of this many
   bool crossing = false;  ///< scenes whose faces cross, instead of the others
   int most_reports = 10;
 };
