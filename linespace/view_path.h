@@ -15,10 +15,9 @@
 // The answer is exact: which events there are, their order, and the views between them
 // are decided by exact signs; only u is rounded.  How, and why nothing is missed:
 // linespace/path/path_walk.h.
-// Visual events: Koenderink and van Doorn, 1979; EV and EEE as in Gigus, Canny and
-// Seidel, Efficiently computing and representing aspect graphs of polyhedral objects,
-// 1991. Neighbours: point_view.h gives one view; skeleton/view_events.h asks a skeleton
-// that is there already, for segments of points, and tells what changes nothing too.
+// Neighbours: path_events.h has the values; point_view.h gives one view;
+// skeleton/view_events.h asks a skeleton that is there already, for segments of points,
+// and tells events that change nothing, too.
 
 #pragma once
 

@@ -181,6 +181,8 @@ bool PathCandidates::may_change(const Candidate& candidate, const PathRoot& root
     }
     case Candidate::Kind::Plane:
       return seen.shows_facet(candidate.a);
+    case Candidate::Kind::EyeOnLine:
+      return true;
   }
   return true;
 }

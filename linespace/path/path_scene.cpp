@@ -104,8 +104,4 @@ std::span<const int> PathScene::lines_of(const MapLine& name) const {
   return it == named_.end() ? std::span<const int>() : std::span<const int>(it->second);
 }
 
-bool PathScene::passes(int line, int point) const {
-  return std::ranges::binary_search(points_[point].lines, line);
-}
-
 }  // namespace sightline::internal

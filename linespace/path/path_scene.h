@@ -48,9 +48,6 @@ class PathScene {
   /// The position in points() of a point of the scene; -1 where no line ends.
   [[nodiscard]] int point_of(int id) const { return point_of_[id]; }
 
-  /// The line passes the point.
-  [[nodiscard]] bool passes(int line, int point) const;
-
  private:
   void add_lines();
   void add_touches();

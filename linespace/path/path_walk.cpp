@@ -1,6 +1,7 @@
 #include "linespace/path/path_walk.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "linespace/path/path_names.h"
 
