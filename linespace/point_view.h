@@ -19,6 +19,8 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "linespace/request.h"
 #include "linespace/scene.h"
@@ -45,6 +47,21 @@ class PointViewIndex {
   /// of faces that are hidden, each of which takes one test.  Of the request, budget and
   /// stop are heard; throws Stopped.
   [[nodiscard]] PointView view(const Viewpoint& eye, const Request& request = {}) const;
+
+  /// What of this is seen through a window: within the cone from the eye over a convex
+  /// polygon, before it and beyond.  Measures are those of the parts within.  The
+  /// window's sides are edges of the map with no name (MapLine{}), beyond which the
+  /// region is -1. Throws InvalidInput for a polygon that is not convex, or that the eye
+  /// sees edge-on.
+  [[nodiscard]] PointView view_through(const Viewpoint& eye,
+                                       std::span<const Point> window,
+                                       const Request& request = {}) const;
+
+  /// Seams that are seen, and what is hidden of the edges of the scene; edges seen end-on
+  /// are left out.  Costs a view, and for the hidden some microseconds for each edge.
+  [[nodiscard]] std::vector<FurtherLine> further_lines(const Viewpoint& eye, bool seams,
+                                                       bool hidden,
+                                                       const Request& request = {}) const;
 
   /// The patch of a facet as it is seen from its front or its back: facets, of all
   /// objects, that lie in one plane, face alike and hang together have one number.

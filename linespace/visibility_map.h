@@ -134,6 +134,18 @@ struct Accident {
   friend auto operator<=>(const Accident&, const Accident&) = default;
 };
 
+/// What a drawing may show besides the map.
+struct FurtherLine {
+  enum class Kind : std::uint8_t {
+    Seam,   ///< seen, between two facets of one patch
+    Hidden  ///< a piece of an edge that nearer faces hide
+  };
+  Kind kind;
+  MapLine line;
+  std::array<Point, 2> at;       ///< its ends in the picture, as MapVertex::at
+  std::array<Point, 2> segment;  ///< the piece in space, rounded
+};
+
 struct PointView {
   Viewpoint eye;
   EyePlace place;
@@ -150,6 +162,8 @@ struct PointView {
 
   /// The labelled structure is the same for all eyes near by.
   bool general;
+  /// Each with what it is made of.  Where many things are seen in one, as in a plane of
+  /// many facets, which of them are told together may depend on the scene's order.
   std::vector<Accident> accidents;
   /// Equal for two views of one scene iff their labelled structures are; empty where the
   /// view is not general.

@@ -28,6 +28,19 @@ Rational LineCuts::exact(const LineCut& cut) const {
   return quotient(w0, Rational(w0 + w1));
 }
 
+std::array<Rational, 2> LineCuts::shares(const ExactPoint& w) const {
+  const ExactPoint &u = eye_->exact_vector(ends_[0]), &v = eye_->exact_vector(ends_[1]);
+  const ExactPoint whole = exact_cross(u, v);
+  const std::size_t i = whole[0] != 0 ? 0 : whole[1] != 0 ? 1 : 2;
+  return {quotient(exact_cross(w, v)[i], whole[i]),
+          quotient(exact_cross(u, w)[i], whole[i])};
+}
+
+Rational LineCuts::nearness(const ExactPoint& w) const {
+  const auto [s, t] = shares(w);
+  return s * eye_->exact_height(ends_[0]) + t * eye_->exact_height(ends_[1]);
+}
+
 LineCut LineCuts::weighted(LineCut cut, LongValue at0, LongValue at1) const {
   if (accurate(at0) && accurate(at1)) {
     cut.w0 = std::abs(at0.value);

@@ -45,6 +45,12 @@ class LineCuts {
 
   [[nodiscard]] std::strong_ordering compare(const LineCut& a, const LineCut& b) const;
 
+  /// s and t of a picture vector w = s u + t v on the line's picture, u and v being the
+  /// vectors of its ends.  The position there is t / (s + t).
+  [[nodiscard]] std::array<Rational, 2> shares(const ExactPoint& w) const;
+  /// How near the line is to the eye where w sees it: at one w what is larger is nearer.
+  [[nodiscard]] Rational nearness(const ExactPoint& w) const;
+
   /// The position as a fraction, exactly.
   [[nodiscard]] Rational exact(const LineCut& cut) const;
 

@@ -13,7 +13,7 @@
 
 namespace sightline::internal {
 
-ViewScene::ViewScene(const Scene& scene, const Request& request)
+SharedViewScene::SharedViewScene(const Scene& scene, const Request& request)
     : scene_(&scene), silhouettes_(scene, EventMode::Solid, request), solids_(scene) {
   Stage stage(request, "what views share");
   add_lines();
@@ -22,7 +22,7 @@ ViewScene::ViewScene(const Scene& scene, const Request& request)
   patches_ = find_patches(silhouettes_);
 }
 
-void ViewScene::add_lines() {
+void SharedViewScene::add_lines() {
   const Scene& scene = *scene_;
   for (int e = 0; e < static_cast<int>(scene.edges().size()); ++e) {
     lines_.push_back({scene.edges()[e].points, {e, {-1, -1}}});
@@ -53,7 +53,7 @@ void ViewScene::add_lines() {
   }
 }
 
-void ViewScene::add_crossings() {
+void SharedViewScene::add_crossings() {
   const FaceCrossings crossings(silhouettes_);
   const std::size_t n = scene_->faces().size();
   std::vector<std::vector<int>> of_face(crossings.empty() ? 0 : n);
@@ -87,7 +87,7 @@ void ViewScene::add_crossings() {
   }
 }
 
-void ViewScene::find_whole_lines() {
+void SharedViewScene::find_whole_lines() {
   std::vector<Box> boxes;
   for (const ViewLine& line : lines_) {
     boxes.push_back(box_of(std::array{position(line.ends[0]), position(line.ends[1])}));
@@ -120,28 +120,28 @@ void ViewScene::find_whole_lines() {
   }
 }
 
-std::span<const int> ViewScene::crossings_of(int face) const {
+std::span<const int> SharedViewScene::crossings_of(int face) const {
   return std::span(crossing_lines_)
       .subspan(crossing_starts_[face],
                crossing_starts_[face + 1] - crossing_starts_[face]);
 }
 
-Rational ViewScene::exact_plane_value(int face, const ExactPoint& p) const {
+Rational SharedViewScene::exact_plane_value(int face, const ExactPoint& p) const {
   const auto t = plane_points(*scene_, face);
   return exact_orient(exact_point(scene_->point(t[0])), exact_point(scene_->point(t[1])),
                       exact_point(scene_->point(t[2])), p);
 }
 
-Sign ViewScene::plane_side(int face, int point) const {
+Sign SharedViewScene::plane_side(int face, int point) const {
   if (!is_constructed(point)) return silhouettes_.face_plane(face)(scene_->point(point));
   return static_cast<Sign>(exact_plane_value(face, exact(point)).sign());
 }
 
-std::vector<int> ViewScene::material_at(const ExactPoint& p) const {
+std::vector<int> SharedViewScene::material_at(const ExactPoint& p) const {
   return internal::material_at(*scene_, solids_, p);
 }
 
-bool ViewScene::in_line(int a, int b, int p) const {
+bool SharedViewScene::in_line(int a, int b, int p) const {
   if (p == a || p == b) return true;
   if (!is_constructed(a) && !is_constructed(b) && !is_constructed(p)) {
     return collinear(scene_->point(a), scene_->point(b), scene_->point(p));
@@ -151,10 +151,36 @@ bool ViewScene::in_line(int a, int b, int p) const {
          ExactPoint{};
 }
 
-bool ViewScene::on_one_line(int line, int other) const {
+bool SharedViewScene::on_one_line(int line, int other) const {
   const auto [a, b] = lines_[line].ends;
   const auto [c, d] = lines_[other].ends;
   return line == other || (in_line(a, b, c) && in_line(a, b, d));
+}
+
+ViewScene ViewScene::with_window(std::span<const Point> corners) const {
+  ViewScene scene(*this);
+  scene.window_.assign(corners.begin(), corners.end());
+  scene.window_lines_.clear();
+  const int first = shared_->point_count(), n = static_cast<int>(corners.size());
+  for (int k = 0; k < n; ++k) {
+    scene.window_lines_.push_back({{first + k, first + (k + 1) % n}, {}});
+  }
+  return scene;
+}
+
+bool ViewScene::in_line(int a, int b, int p) const {
+  const int n = shared_->point_count();
+  if (a < n && b < n && p < n) return shared_->in_line(a, b, p);
+  const ExactPoint at = exact(a);
+  return exact_cross(exact_difference(exact(b), at), exact_difference(exact(p), at)) ==
+         ExactPoint{};
+}
+
+bool ViewScene::on_one_line(int line, int other) const {
+  if (line == other) return true;
+  const auto [a, b] = lines()[line].ends;
+  const auto [c, d] = lines()[other].ends;
+  return in_line(a, b, c) && in_line(a, b, d);
 }
 
 }  // namespace sightline::internal

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -24,10 +25,10 @@ struct ViewLine {
   std::array<int, 2> crossing{-1, -1};
 };
 
-/// Immutable.  Keeps a reference to the scene.
-class ViewScene {
+/// What is computed once for a scene.  Immutable.  Keeps a reference to the scene.
+class SharedViewScene {
  public:
-  ViewScene(const Scene& scene, const Request& request);
+  SharedViewScene(const Scene& scene, const Request& request);
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Silhouettes& silhouettes() const { return silhouettes_; }
@@ -97,6 +98,87 @@ class ViewScene {
   std::vector<int> edge_starts_, edge_ids_;            // by object
   std::vector<ExactPoint> constructed_;
   std::vector<int> patches_;
+};
+
+/// The lines of a scene, and those that one view adds.
+class ViewLines {
+ public:
+  ViewLines(std::span<const ViewLine> given, std::span<const ViewLine> added)
+      : given_(given), added_(added) {}
+  [[nodiscard]] const ViewLine& operator[](std::size_t i) const {
+    return i < given_.size() ? given_[i] : added_[i - given_.size()];
+  }
+  [[nodiscard]] std::size_t size() const { return given_.size() + added_.size(); }
+
+ private:
+  std::span<const ViewLine> given_, added_;
+};
+
+/// A scene as a view asks it: what all views share, and the sides of the window through
+/// which this one looks.  Cheap to copy.
+class ViewScene {
+ public:
+  ViewScene(const Scene& scene, const Request& request)
+      : shared_(std::make_shared<SharedViewScene>(scene, request)) {}
+  /// The same scene, seen through a polygon: its corners are the last points, its sides
+  /// the last lines.
+  [[nodiscard]] ViewScene with_window(std::span<const Point> corners) const;
+
+  [[nodiscard]] const Scene& scene() const { return shared_->scene(); }
+  [[nodiscard]] const Silhouettes& silhouettes() const { return shared_->silhouettes(); }
+  [[nodiscard]] std::vector<int> material_at(const ExactPoint& p) const {
+    return shared_->material_at(p);
+  }
+  [[nodiscard]] ViewLines lines() const { return {shared_->lines(), window_lines_}; }
+  /// Number of the first line of the window; lines().size() where there is none.
+  [[nodiscard]] int first_window_line() const {
+    return static_cast<int>(shared_->lines().size());
+  }
+  [[nodiscard]] int whole_line(int line) const {
+    return line < first_window_line() ? shared_->whole_line(line) : line;
+  }
+  [[nodiscard]] int line_of_side(int face, int k) const {
+    return shared_->line_of_side(face, k);
+  }
+  [[nodiscard]] std::span<const int> crossings_of(int face) const {
+    return shared_->crossings_of(face);
+  }
+  [[nodiscard]] std::span<const int> edges_of(int object) const {
+    return shared_->edges_of(object);
+  }
+  [[nodiscard]] int point_count() const {
+    return shared_->point_count() + static_cast<int>(window_.size());
+  }
+  [[nodiscard]] bool is_constructed(int point) const {
+    return shared_->is_constructed(point);
+  }
+  [[nodiscard]] ExactPoint exact(int point) const {
+    return point < shared_->point_count()
+               ? shared_->exact(point)
+               : exact_point(window_[point - shared_->point_count()]);
+  }
+  [[nodiscard]] Point position(int point) const {
+    return point < shared_->point_count() ? shared_->position(point)
+                                          : window_[point - shared_->point_count()];
+  }
+  [[nodiscard]] Sign plane_side(int face, int point) const {
+    return point < shared_->point_count()
+               ? shared_->plane_side(face, point)
+               : static_cast<Sign>(exact_plane_value(face, exact(point)).sign());
+  }
+  [[nodiscard]] Rational exact_plane_value(int face, const ExactPoint& p) const {
+    return shared_->exact_plane_value(face, p);
+  }
+  [[nodiscard]] bool in_line(int a, int b, int p) const;
+  [[nodiscard]] bool on_one_line(int line, int other) const;
+  [[nodiscard]] int patch(int facet, bool front) const {
+    return shared_->patch(facet, front);
+  }
+
+ private:
+  std::shared_ptr<const SharedViewScene> shared_;
+  std::vector<Point> window_;
+  std::vector<ViewLine> window_lines_;
 };
 
 }  // namespace sightline::internal

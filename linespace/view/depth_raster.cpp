@@ -9,18 +9,13 @@ namespace {
 
 constexpr float kNothing = -std::numeric_limits<float>::infinity();
 
-// A float not above x.
-float rounded_down(double x) {
-  const auto f = static_cast<float>(x);
-  return f > x ? std::nextafter(f, kNothing) : f;
-}
-
 }  // namespace
 
 DepthRaster::DepthRaster(int size)
     : size_(size),
       depths_(static_cast<std::size_t>(size) * size, kNothing),
-      coarse_size_((size + kTile - 1) / kTile) {
+      coarse_size_(size / kTile),
+      least_(static_cast<std::size_t>(size)) {
   coarse_.assign(static_cast<std::size_t>(coarse_size_) * coarse_size_, kNothing);
 }
 
@@ -62,17 +57,26 @@ void DepthRaster::draw(const RasterOccluder& occluder, const PictureRect& around
         std::min(most, static_cast<int>(std::floor((to + 1) * 0.5 * size_ - 0.5 - 1e-6)));
     first = std::max(first, 0);
     last = std::min(last, size_ - 1);
-    float* const line = depths_.data() + static_cast<std::size_t>(row) * size_;
-    for (int column = first; column <= last; ++column) {
-      const double x = -1 + (column + 0.5) * width;
-      double depth = std::numeric_limits<double>::infinity();
-      for (const PictureFunction& d : occluder.depths) {
-        depth = std::min(depth, d.a * x + d.b * y + d.c -
-                                    (std::abs(d.a) + std::abs(d.b)) * half - d.error);
+    if (last < first) continue;
+    drawn = true;
+    // The least of the planes' depths in floats; what these round is taken off.
+    const int n = last - first + 1;
+    std::fill_n(least_.begin(), n, -kNothing);
+    for (const PictureFunction& d : occluder.depths) {
+      const double x = -1 + (first + 0.5) * width;
+      const double slack = 0x1p-20 * (std::abs(d.a) + std::abs(d.b) + std::abs(d.c));
+      const auto begin = static_cast<float>(d.a * x + d.b * y + d.c - slack - d.error -
+                                            (std::abs(d.a) + std::abs(d.b)) * half);
+      const auto step = static_cast<float>(d.a * width);
+      float* const row_least = least_.data();
+      for (int i = 0; i < n; ++i) {
+        const float depth = begin + step * static_cast<float>(i);
+        row_least[i] = depth < row_least[i] ? depth : row_least[i];
       }
-      line[column] = std::max(line[column], rounded_down(depth));
-      drawn = true;
     }
+    float* const line = depths_.data() + static_cast<std::size_t>(row) * size_ + first;
+    const float* const row_least = least_.data();
+    for (int i = 0; i < n; ++i) line[i] = line[i] < row_least[i] ? row_least[i] : line[i];
   }
   if (!drawn) return;
   for (int ty = first_row / kTile; ty <= last_row / kTile; ++ty) {
@@ -81,15 +85,16 @@ void DepthRaster::draw(const RasterOccluder& occluder, const PictureRect& around
 }
 
 void DepthRaster::refresh(int tile_x, int tile_y) {
-  float least = std::numeric_limits<float>::infinity();
-  const int end_x = std::min(size_, (tile_x + 1) * kTile);
-  const int end_y = std::min(size_, (tile_y + 1) * kTile);
-  for (int y = tile_y * kTile; y < end_y; ++y) {
-    for (int x = tile_x * kTile; x < end_x; ++x) {
-      least = std::min(least, depths_[static_cast<std::size_t>(y) * size_ + x]);
-    }
+  std::array<float, kTile> least;
+  least.fill(-kNothing);
+  for (int y = 0; y < kTile; ++y) {
+    const float* const row = depths_.data() +
+                             static_cast<std::size_t>(tile_y * kTile + y) * size_ +
+                             tile_x * kTile;
+    for (int x = 0; x < kTile; ++x) least[x] = row[x] < least[x] ? row[x] : least[x];
   }
-  coarse_[static_cast<std::size_t>(tile_y) * coarse_size_ + tile_x] = least;
+  coarse_[static_cast<std::size_t>(tile_y) * coarse_size_ + tile_x] =
+      *std::ranges::min_element(least);
 }
 
 bool DepthRaster::hides(const PictureRect& rect, double depth) const {

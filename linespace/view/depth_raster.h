@@ -31,7 +31,7 @@ struct PictureRect {
 
 class DepthRaster {
  public:
-  /// size x size pixels over the square from -1 to 1.
+  /// size x size pixels over the square from -1 to 1; a multiple of 8.
   explicit DepthRaster(int size);
 
   void draw(const RasterOccluder& occluder, const PictureRect& around);
@@ -47,6 +47,7 @@ class DepthRaster {
   // The least depth in squares of pixels, never above the true one.
   std::vector<float> coarse_;
   int coarse_size_;
+  std::vector<float> least_;  // of one row: scratch
   static constexpr int kTile = 8;
 
   void refresh(int tile_x, int tile_y);

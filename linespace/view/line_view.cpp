@@ -6,9 +6,9 @@
 
 namespace sightline::internal {
 
-LineViewer::LineViewer(const EyeSpace& eye, const EyeStar& star,
+LineViewer::LineViewer(const EyeSpace& eye, const EyeStar& star, const Window& window,
                        std::span<const std::uint8_t> possibly_seen)
-    : eye_(&eye), star_(&star), tree_(std::vector<Box>{}) {
+    : eye_(&eye), star_(&star), window_(&window), tree_(std::vector<Box>{}) {
   std::vector<Box> boxes;
   for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
     if (possibly_seen[f] == 0 || eye.front(f) == Sign::Zero) continue;
@@ -22,6 +22,7 @@ LineViewer::LineViewer(const EyeSpace& eye, const EyeStar& star,
 bool LineViewer::cover(int line, const LineCuts& cuts) {
   find_faces(line);
   covers_.clear();
+  along_ = false;
   for (const int face : faces_) {
     if (auto own = own_side(line, face)) {
       covers_.push_back(*own);
@@ -38,10 +39,16 @@ bool LineViewer::cover(int line, const LineCuts& cuts) {
 void LineViewer::view(int line, std::vector<LinePiece>& pieces) {
   if (eye_->end_on(line)) return;
   const LineCuts cuts(*eye_, line);
-  if (!cover(line, cuts) && !star_->bounds(line)) return;
+  if (window_->has(line)) {
+    covers_.clear();  // nothing hides the window
+  } else if (!cover(line, cuts) && !star_->bounds(line)) {
+    return;
+  }
   const Scan scan = scan_covers(line, cuts);
   const std::size_t first = pieces.size();
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
+    const bool in_sight = scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0;
+    if (along_ && in_sight) suspects_.push_back({-1, line, scan.at[i], scan.at[i + 1]});
     auto next = piece(line, scan, i);
     if (!next) continue;
     if (pieces.size() > first && pieces.back().left == next->left &&
@@ -62,7 +69,8 @@ std::optional<LinePiece> LineViewer::piece(int line, const Scan& scan,
   const auto& hidden = scan.hidden[i];
   if (blocked[0] && blocked[1]) return std::nullopt;
   const bool bounds_sight = blocked[0] || blocked[1];
-  if (bounds_sight && !star_->bounds(line)) return std::nullopt;
+  if (bounds_sight != window_->has(line) && !(bounds_sight && star_->bounds(line)))
+    return std::nullopt;
   // Where a nearer face ends along the line, its own side is the piece.
   if (!bounds_sight && (hidden[0] > 0 || hidden[1] > 0 || scan.containing[i].empty()))
     return std::nullopt;
@@ -79,22 +87,42 @@ std::optional<LinePiece> LineViewer::piece(int line, const Scan& scan,
   return piece;
 }
 
-std::optional<std::array<LineCut, 2>> LineViewer::part_in_sight(int line) {
-  if (eye_->end_on(line)) return std::nullopt;
+std::vector<std::array<LineCut, 2>> LineViewer::parts_in_sight(int line) {
+  std::vector<std::array<LineCut, 2>> parts;
+  if (eye_->end_on(line)) return parts;
   const LineCuts cuts(*eye_, line);
-  if (!cover(line, cuts)) return std::nullopt;
+  if (!cover(line, cuts)) return parts;
   const Scan scan = scan_covers(line, cuts);
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
-    if (scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0)
-      return std::array{scan.at[i], scan.at[i + 1]};
+    const bool outside =
+        !scan.blocked.empty() && scan.blocked[i][0] && scan.blocked[i][1];
+    if (!outside && (scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0))
+      parts.push_back({scan.at[i], scan.at[i + 1]});
   }
-  return std::nullopt;
+  return parts;
+}
+
+std::vector<std::array<LineCut, 2>> LineViewer::hidden_parts(int line) {
+  std::vector<std::array<LineCut, 2>> parts;
+  if (eye_->end_on(line)) return parts;
+  const LineCuts cuts(*eye_, line);
+  if (!cover(line, cuts)) return {{start_cut(), finish_cut()}};
+  const Scan scan = scan_covers(line, cuts);
+  for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
+    if (scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0) continue;
+    if (!parts.empty() && cuts.compare(parts.back()[1], scan.at[i]) == 0) {
+      parts.back()[1] = scan.at[i + 1];
+    } else {
+      parts.push_back({scan.at[i], scan.at[i + 1]});
+    }
+  }
+  return parts;
 }
 
 // A corner that is seen on a line, but does not lie on it.
 void LineViewer::suspect_corner(int line, int corner) {
   const auto [a, b] = eye_->scene().lines()[line].ends;
-  if (!eye_->scene().in_line(a, b, corner)) suspects_.push_back({corner, line, {}});
+  if (!eye_->scene().in_line(a, b, corner)) suspects_.push_back({corner, line, {}, {}});
 }
 
 // Faces that sight may meet on its way to the line.
@@ -168,7 +196,10 @@ std::optional<LineViewer::Cover> LineViewer::overlap(int line, int face,
     const int line_there = own >= 0 ? own : line;
     if (at_a == Sign::Zero && before_a == Sign::Negative) suspect_corner(line_there, a);
     if (at_b == Sign::Zero && before_b == Sign::Negative) suspect_corner(line_there, b);
-    if (at_a == Sign::Zero && at_b == Sign::Zero) continue;
+    if (at_a == Sign::Zero && at_b == Sign::Zero) {
+      along_ |= cover.hides && own >= 0;
+      continue;
+    }
     if (at_a != Sign::Positive && at_b != Sign::Positive) return std::nullopt;
     if (at_a != Sign::Negative && at_b != Sign::Negative) continue;
     // Named by the whole line, so that faces beside each other give the same cut.
@@ -234,6 +265,7 @@ LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
   const auto before = [&](const LineCut& x, const LineCut& y) {
     return cuts.compare(x, y) < 0;
   };
+  window_->add_cuts(line, cuts, scan.at);
   std::ranges::sort(scan.at, before);
   const auto same = [&](const LineCut& x, const LineCut& y) {
     if (cuts.compare(x, y) != 0) return false;
@@ -242,7 +274,7 @@ LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
                           eye_->scene().in_line(x.p, x.q, y.q);
     const bool sides = x.kind == LineCut::Kind::Side || y.kind == LineCut::Kind::Side;
     if (sides && !one_line)
-      suspects_.push_back({-1, line, x.kind == LineCut::Kind::Side ? x : y});
+      suspects_.push_back({-1, line, x.kind == LineCut::Kind::Side ? x : y, {}});
     return true;
   };
   scan.at.erase(std::unique(scan.at.begin(), scan.at.end(), same), scan.at.end());
@@ -271,7 +303,7 @@ LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
     for (int side = 0; side < 2; ++side) hidden[side] += begins[i][side];
     scan.hidden.push_back(hidden);
   }
-  if (!star_->faces().empty()) find_blocked(line, cuts, scan);
+  if (!star_->faces().empty() || !window_->empty()) find_blocked(line, cuts, scan);
   return scan;
 }
 
@@ -282,10 +314,15 @@ void LineViewer::find_blocked(int line, const LineCuts& cuts, Scan& scan) const 
   const ExactPoint right = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
   const ExactPoint left{-right[0], -right[1], -right[2]};
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
-    const Rational middle = (cuts.exact(scan.at[i]) + cuts.exact(scan.at[i + 1])) / 2;
-    const ExactPoint way =
-        exact_difference(along(scene.exact(a), scene.exact(b), middle), eye_->eye());
-    scan.blocked.push_back({star_->blocked(way, left), star_->blocked(way, right)});
+    std::array<bool, 2> blocked = window_->outside(line, cuts, scan.at[i]);
+    if (!star_->faces().empty() && !(blocked[0] && blocked[1])) {
+      const Rational middle = (cuts.exact(scan.at[i]) + cuts.exact(scan.at[i + 1])) / 2;
+      const ExactPoint way =
+          exact_difference(along(scene.exact(a), scene.exact(b), middle), eye_->eye());
+      blocked[0] = blocked[0] || star_->blocked(way, left);
+      blocked[1] = blocked[1] || star_->blocked(way, right);
+    }
+    scan.blocked.push_back(blocked);
   }
 }
 

@@ -9,9 +9,10 @@
 #include <vector>
 
 #include "linespace/picture/eye_space.h"
+#include "linespace/picture/eye_star.h"
 #include "linespace/picture/line_cut.h"
+#include "linespace/picture/view_window.h"
 #include "linespace/space/bvh.h"
-#include "linespace/view/eye_star.h"
 
 namespace sightline::internal {
 
@@ -20,7 +21,8 @@ struct SeenBeside {
   /// Faces that are seen there and contain the piece: one, or several that coincide.
   /// Empty: what is seen lies behind the piece.
   std::vector<int> faces;
-  /// From an eye on the scene: sight on this side runs into material and sees nothing.
+  /// Nothing is seen on this side: from an eye on the scene sight runs into material, or
+  /// it is beyond the window.
   bool blocked = false;
   friend bool operator==(const SeenBeside&, const SeenBeside&) = default;
 };
@@ -32,26 +34,31 @@ struct LinePiece {
   SeenBeside left, right;  ///< going from `from` to `to`
 };
 
-/// Where, in the picture, something on the line may coincide with something nearer.
+/// Where, in the picture, something on a line may coincide with something nearer: a point
+/// of the scene, or a position on the line, or a stretch of it.
 struct Suspect {
-  int point;  ///< of the scene; -1: the position on the line
+  int point;  ///< -1: a position or a stretch
   int line;
-  LineCut cut;
+  LineCut at;
+  std::optional<LineCut> to;  ///< the end of a stretch
 };
 
 /// Finds the pieces of lines.  Keeps scratch: one for a thread.
 class LineViewer {
  public:
   /// Faces marked 0 in possibly_seen are certainly hidden and are not asked.
-  LineViewer(const EyeSpace& eye, const EyeStar& star,
+  LineViewer(const EyeSpace& eye, const EyeStar& star, const Window& window,
              std::span<const std::uint8_t> possibly_seen);
 
   /// Appends the pieces of a line to `pieces`, from its first end to its second.
   void view(int line, std::vector<LinePiece>& pieces);
 
-  /// Some part of the line that nothing nearer hides, at least on one side; it may still
+  /// Parts of the line that nothing nearer hides, at least on one side; they may still
   /// bound nothing that is seen.
-  [[nodiscard]] std::optional<std::array<LineCut, 2>> part_in_sight(int line);
+  [[nodiscard]] std::vector<std::array<LineCut, 2>> parts_in_sight(int line);
+
+  /// Parts of the line that nearer faces hide on both sides.
+  [[nodiscard]] std::vector<std::array<LineCut, 2>> hidden_parts(int line);
 
   /// All accidents of corners and lines that views of the lines asked so far came across,
   /// and perhaps others: every point where a corner is seen on a nearer or farther line,
@@ -73,7 +80,7 @@ class LineViewer {
     std::vector<LineCut> at;
     std::vector<std::array<int, 2>> hidden;
     std::vector<std::vector<const Cover*>> containing;
-    std::vector<std::array<bool, 2>> blocked;  // empty for an eye off the scene
+    std::vector<std::array<bool, 2>> blocked;  // empty where nothing is
   };
 
   [[nodiscard]] bool cover(int line, const LineCuts& cuts);
@@ -90,11 +97,13 @@ class LineViewer {
 
   const EyeSpace* eye_;
   const EyeStar* star_;
+  const Window* window_;
   std::vector<int> askable_;  // faces that may be seen, and not edge-on
   Bvh tree_;                  // over their boxes
   std::vector<int> faces_;
   std::vector<Cover> covers_;
   std::vector<Suspect> suspects_;
+  bool along_ = false;  // some nearer side is seen along the line
 };
 
 }  // namespace sightline::internal

@@ -27,6 +27,8 @@ class Joiner {
   void drop_doubles();
   [[nodiscard]] bool inside(int point, int piece) const;
   [[nodiscard]] bool on_line(const PicturePoint& p, int line) const;
+  [[nodiscard]] int exact_order(int line, const PicturePoint& x,
+                                const PicturePoint& y) const;
   [[nodiscard]] int order(int line, const PicturePoint& x, const PicturePoint& y,
                           const LongVector& along) const;
 
@@ -105,6 +107,10 @@ int Joiner::order(int line, const PicturePoint& x, const PicturePoint& y,
   }
   const long double error = (2 * (x.error() + y.error()) + 0x1p-60L) * size;
   if (std::abs(difference) > error) return difference > 0 ? 1 : -1;
+  return exact_order(line, x, y);
+}
+
+int Joiner::exact_order(int line, const PicturePoint& x, const PicturePoint& y) const {
   const auto [a, b] = eye_->scene().lines()[line].ends;
   const ExactPoint normal = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
   return -exact_dot(normal, exact_cross(x.exact(), y.exact())).sign();
@@ -114,16 +120,22 @@ bool Joiner::inside(int point, int piece) const {
   const auto [from, to] = ends_[piece];
   if (point == from || point == to) return false;
   const PicturePoint& p = points_[point];
+  const int line = (*pieces_)[piece].line;
+  if (!on_line(p, line)) return false;
   const LongVector &u = points_[from].vector(), &v = points_[to].vector();
   LongVector along, middle;
   for (int i = 0; i < 3; ++i) {
     along[i] = v[i] - u[i];
     middle[i] = v[i] + u[i];
   }
-  // On the other side of the sphere.
+  // Of a piece that spans nearly half a turn doubles do not know the side of the sphere.
+  const bool wide = !eye_->is_direction() && dot(middle, middle) < 0x1p-8L;
+  if (wide) {
+    return exact_order(line, points_[from], p) < 0 &&
+           exact_order(line, p, points_[to]) < 0;
+  }
   if (!eye_->is_direction() && dot(middle, p.vector()) < 0) return false;
-  const int line = (*pieces_)[piece].line;
-  return on_line(p, line) && order(line, points_[from], p, along) < 0 &&
+  return order(line, points_[from], p, along) < 0 &&
          order(line, p, points_[to], along) < 0;
 }
 
@@ -156,14 +168,21 @@ void Joiner::split() {
 }
 
 // Lines that coincide in space, sides of objects that touch, show the same piece twice: a
-// crossing of facets stays, else the smallest line number.
+// crossing of facets stays, else the smallest line number.  From an eye on a facet sides
+// of it may be seen in one: the nearest stays.
 void Joiner::drop_doubles() {
   const auto ends = [](const JoinedEdge& e) { return std::minmax(e.ends[0], e.ends[1]); };
+  const auto crosses = [&](const JoinedEdge& e) {
+    return eye_->scene().lines()[e.line].crossing[0] >= 0;
+  };
+  const auto nearness = [&](const JoinedEdge& e) {
+    const ExactPoint &u = points_[e.ends[0]].exact(), &v = points_[e.ends[1]].exact();
+    return LineCuts(*eye_, e.line).nearness({u[0] + v[0], u[1] + v[1], u[2] + v[2]});
+  };
   std::ranges::stable_sort(edges_, [&](const JoinedEdge& x, const JoinedEdge& y) {
     if (ends(x) != ends(y)) return ends(x) < ends(y);
-    const bool crosses = eye_->scene().lines()[x.line].crossing[0] >= 0;
-    const bool other = eye_->scene().lines()[y.line].crossing[0] >= 0;
-    return crosses != other ? crosses : x.line < y.line;
+    if (!eye_->scene().on_one_line(x.line, y.line)) return nearness(y) < nearness(x);
+    return crosses(x) != crosses(y) ? crosses(x) : x.line < y.line;
   });
   const auto doubles = std::ranges::unique(
       edges_,

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "linespace/picture/view_scene.h"
+#include "linespace/view/further_lines.h"
 #include "linespace/view/line_view.h"
 #include "linespace/view/possibly_seen.h"
 #include "linespace/view/view_accidents.h"
@@ -39,6 +40,8 @@ namespace {
 std::vector<int> lines_to_ask(const ViewScene& scene, const EyeStar& star,
                               std::span<const std::uint8_t> possibly_seen) {
   std::vector<int> lines(star.sides().begin(), star.sides().end());
+  for (std::size_t l = scene.first_window_line(); l < scene.lines().size(); ++l)
+    lines.push_back(static_cast<int>(l));
   for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
     if (possibly_seen[f] == 0) continue;
     for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
@@ -51,25 +54,40 @@ std::vector<int> lines_to_ask(const ViewScene& scene, const EyeStar& star,
   return lines;
 }
 
-}  // namespace
+// The graph of all that is seen, and what it was made with.
+struct Sight {
+  Sight(const ViewScene& scene, const Viewpoint& eye, Stage& stage)
+      : space(scene, eye),
+        seen(possibly_seen(space)),
+        star(space),
+        window(space),
+        viewer(space, star, window, seen) {
+    std::vector<LinePiece> pieces;
+    const std::vector<int> lines = lines_to_ask(scene, star, seen);
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      stage.at(i, lines.size());
+      viewer.view(lines[i], pieces);
+    }
+    graph = join_pieces(space, star, pieces, seen);
+    stage.check(0.8);
+  }
 
-PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) const {
+  EyeSpace space;
+  std::vector<std::uint8_t> seen;
+  EyeStar star;
+  Window window;
+  LineViewer viewer;
+  ViewGraph graph;
+};
+
+PointView seen_from(const ViewScene& scene, const Viewpoint& eye,
+                    const Request& request) {
   const PrecisionScope precision(request.precision);
   Stage stage(request, "view");
-  const ViewScene& scene = impl_->scene;
-  const EyeSpace space(scene, eye);
-
-  const std::vector<std::uint8_t> seen = possibly_seen(space);
-  std::vector<LinePiece> pieces;
-  const EyeStar star(space);
-  LineViewer viewer(space, star, seen);
-  const std::vector<int> lines = lines_to_ask(scene, star, seen);
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    stage.at(i, lines.size());
-    viewer.view(lines[i], pieces);
-  }
-  const ViewGraph graph = join_pieces(space, star, pieces, seen);
-  stage.check(0.8);
+  Sight sight(scene, eye, stage);
+  const EyeSpace& space = sight.space;
+  const EyeStar& star = sight.star;
+  const ViewGraph& graph = sight.graph;
   ViewMap map = make_map(space, graph);
 
   PointView view;
@@ -79,7 +97,7 @@ PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) con
   std::vector<bool> background;
   for (const MapRegion& r : map.regions) background.push_back(r.patches.empty());
   const ViewMeasures measures = measure(space, graph, map.region_of, background);
-  view.accidents = find_accidents(space, viewer, seen);
+  view.accidents = find_accidents(space, sight.window, sight.viewer, sight.seen);
   if (!star.faces().empty()) {
     const GeneratorKind kind = star.place() == EyePlace::Corner ? GeneratorKind::Vertex
                                : star.place() == EyePlace::Edge ? GeneratorKind::Edge
@@ -105,6 +123,43 @@ PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) con
   view.background_pieces = map.background_pieces;
   view.seams = map.seams;
   return view;
+}
+
+}  // namespace
+
+PointView PointViewIndex::view(const Viewpoint& eye, const Request& request) const {
+  return seen_from(impl_->scene, eye, request);
+}
+
+PointView PointViewIndex::view_through(const Viewpoint& eye,
+                                       std::span<const Point> window,
+                                       const Request& request) const {
+  if (window.size() < 3)
+    throw InvalidInput("the window: a polygon of three corners or more");
+  for (const Point& p : window) {
+    for (const double x : p) {
+      if (!is_admissible(x))
+        throw InvalidInput("the window: a coordinate outside [2^-140, 2^140]");
+    }
+  }
+  return seen_from(impl_->scene.with_window(window), eye, request);
+}
+
+std::vector<FurtherLine> PointViewIndex::further_lines(const Viewpoint& eye, bool seams,
+                                                       bool hidden,
+                                                       const Request& request) const {
+  const PrecisionScope precision(request.precision);
+  Stage stage(request, "further lines");
+  const Sight sight(impl_->scene, eye, stage);
+  std::vector<FurtherLine> lines;
+  if (seams) {
+    lines = seam_lines(sight.space, sight.graph, make_map(sight.space, sight.graph));
+  }
+  if (hidden) {
+    const auto more = hidden_lines(sight.space, sight.star);
+    lines.insert(lines.end(), more.begin(), more.end());
+  }
+  return lines;
 }
 
 }  // namespace sightline

@@ -34,6 +34,8 @@ class Culler {
   };
   [[nodiscard]] std::optional<Filled> fill(const Side& side, const Box& box) const;
   [[nodiscard]] bool hidden(const Box& box) const;
+  void find_window();
+  [[nodiscard]] bool beyond_window(const Box& box) const;
   void draw_face(int face);
   void draw_convex(std::span<const std::array<int, 2>> sides, std::span<const int> faces,
                    const Box& around);
@@ -51,6 +53,9 @@ class Culler {
   double size_;  // of all coordinates, the origin's included
   std::vector<Side> sides_;
   std::vector<DepthRaster> rasters_;
+  // Half-spaces that hold all that is seen through the window: normal . (x - point) >= 0.
+  std::vector<Eigen::Vector3d> window_;
+  std::vector<Point> window_points_;  // on their planes
   std::vector<std::uint8_t> drawn_objects_, drawn_facets_;
 };
 
@@ -89,6 +94,7 @@ Culler::Culler(const EyeSpace& eye) : eye_(&eye) {
   rasters_.assign(sides_.size(), DepthRaster(raster_size(scene.faces().size())));
   drawn_objects_.assign(scene.objects().size(), 0);
   drawn_facets_.assign(scene.facets().size(), 0);
+  find_window();
 }
 
 std::optional<Culler::Filled> Culler::fill(const Side& side, const Box& box) const {
@@ -134,7 +140,42 @@ std::optional<Culler::Filled> Culler::fill(const Side& side, const Box& box) con
   return filled;
 }
 
+void Culler::find_window() {
+  const ViewScene& scene = eye_->scene();
+  const ViewLines lines = scene.lines();
+  for (std::size_t l = scene.first_window_line(); l < lines.size(); ++l) {
+    const auto [p, q] = lines[l].ends;
+    const Point a = scene.position(p), b = scene.position(q);
+    const Eigen::Vector3d way =
+        eye_->is_direction() ? eye_->rounded_eye() : Eigen::Vector3d(a - origin_);
+    Eigen::Vector3d n = way.cross(b - a).normalized();
+    // Towards the window's middle.
+    Point middle = Point::Zero();
+    for (std::size_t k = scene.first_window_line(); k < lines.size(); ++k)
+      middle += scene.position(lines[k].ends[0]);
+    middle /= static_cast<double>(lines.size() - scene.first_window_line());
+    if (n.dot(middle - a) < 0) n = -n;
+    if (!n.allFinite()) continue;
+    window_.push_back(n);
+    window_points_.push_back(a);
+  }
+}
+
+bool Culler::beyond_window(const Box& box) const {
+  for (std::size_t k = 0; k < window_.size(); ++k) {
+    double most = 0, size = size_;
+    for (int i = 0; i < 3; ++i) {
+      const double x = window_[k][i] > 0 ? box.max[i] : box.min[i];
+      most += window_[k][i] * (x - window_points_[k][i]);
+      size += std::abs(x) + std::abs(window_points_[k][i]);
+    }
+    if (most < -kMargin * size) return true;
+  }
+  return false;
+}
+
 bool Culler::hidden(const Box& box) const {
+  if (beyond_window(box)) return true;
   for (std::size_t s = 0; s < sides_.size(); ++s) {
     const auto filled = fill(sides_[s], box);
     if (filled && !rasters_[s].hides(filled->rect, filled->depth)) return false;
@@ -301,7 +342,7 @@ std::vector<std::uint8_t> possibly_seen(const EyeSpace& eye) {
   const std::size_t n = eye.scene().scene().faces().size();
   // In small scenes the rasters would cost more than they save.
   constexpr std::size_t kSmall = 200;
-  if (n < kSmall || thread_precision == Precision::Double) {
+  if (n < kSmall) {
     return std::vector<std::uint8_t>(n, 1);
   }
   return Culler(eye).cull();

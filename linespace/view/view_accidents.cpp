@@ -1,6 +1,7 @@
 #include "linespace/view/view_accidents.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <utility>
 
@@ -13,7 +14,6 @@ namespace {
 // A line of the scene that passes a point of the picture, as seen there.
 struct Passing {
   int line;
-  Rational nearness;
   bool ahead, behind;  // it goes on towards its second end, its first end
 };
 
@@ -29,7 +29,7 @@ class PointInspector {
                  PicturePoint at)
       : eye_(&eye), possibly_seen_(possibly_seen), at_(std::move(at)) {}
 
-  std::optional<Accident> inspect();
+  std::optional<Accident> inspect(bool stretch);
 
  private:
   void find_lines();
@@ -37,9 +37,12 @@ class PointInspector {
   void leave_out_hidden();
   void leave_out_seams();
   [[nodiscard]] bool straight(const Group& group) const;
+  [[nodiscard]] bool in_one_stretch() const;
   [[nodiscard]] int corner(const Group& group) const;
   [[nodiscard]] std::vector<ExactPoint> ways(const Passing& p) const;
   [[nodiscard]] std::vector<PictureRay> rays(std::span<const Passing> lines) const;
+  [[nodiscard]] std::vector<int> patches_beside(const Group& group,
+                                                const PictureRay& ray) const;
   [[nodiscard]] Accident name() const;
 
   const EyeSpace* eye_;
@@ -68,19 +71,14 @@ void PointInspector::add_line(int line) {
   if (eye_->end_on(line)) return;
   const PicturePoint p(*eye_, a), q(*eye_, b);
   if (orient(p, q, at_) != Sign::Zero) return;
-  // w = s u + t v, where m and n are t and s times u x v.
-  const ExactPoint &u = p.exact(), &v = q.exact(), &w = at_.exact();
-  const ExactPoint whole = exact_cross(u, v), m = exact_cross(u, w),
-                   n = exact_cross(w, v);
-  int i = 0;
-  while (i < 2 && whole[i] == 0) ++i;
-  const Rational t = m[i] / whole[i], s = n[i] / whole[i];
+  const LineCuts cuts(*eye_, line);
+  const auto [s, t] = cuts.shares(at_.exact());
   if (s < 0 || t < 0) return;
-  const Rational nearness = s * eye_->exact_height(a) + t * eye_->exact_height(b);
+  const Rational nearness = cuts.nearness(at_.exact());
   auto group = std::ranges::find(groups_, nearness, &Group::nearness);
   if (group == groups_.end()) group = groups_.insert(group, Group{nearness, {}});
   if (std::ranges::find(group->lines, line, &Passing::line) == group->lines.end())
-    group->lines.push_back({line, nearness, s > 0, t > 0});
+    group->lines.push_back({line, s > 0, t > 0});
 }
 
 void PointInspector::find_lines() {
@@ -138,22 +136,35 @@ void PointInspector::leave_out_hidden() {
                   [&](const Group& g) { return g.nearness < farthest->nearness; });
 }
 
-// Lines between faces of one patch, which cover all around the point, show nothing.
+// The patches that the faces at the group's depth show along a ray just beside one of its
+// lines, ascending.  Behind them others may hang on the same line, as where flush boxes
+// touch.
+std::vector<int> PointInspector::patches_beside(const Group& g,
+                                                const PictureRay& ray) const {
+  std::vector<int> shown;
+  std::array<Rational, 2> nearest;
+  for (const FaceThere& f : faces_) {
+    if (f.nearness != g.nearness || !contains(*eye_, f.face, ray)) continue;
+    const Nearness there(*eye_, f.face);
+    const std::array<Rational, 2> here{there.at(ray.beside[0]), there.at(ray.beside[1])};
+    if (!shown.empty() && here < nearest) continue;
+    if (!shown.empty() && nearest < here) shown.clear();
+    nearest = here;
+    shown.push_back(eye_->scene().patch(eye_->scene().scene().faces()[f.face].facet,
+                                        eye_->front(f.face) == Sign::Positive));
+  }
+  std::ranges::sort(shown);
+  shown.erase(std::ranges::unique(shown).begin(), shown.end());
+  return shown;
+}
+
+// Lines beside which the same patches are seen on either side show nothing.
 void PointInspector::leave_out_seams() {
-  const auto patch = [&](int f) {
-    return eye_->scene().patch(eye_->scene().scene().faces()[f].facet,
-                               eye_->front(f) == Sign::Positive);
-  };
   std::erase_if(groups_, [&](const Group& g) {
-    std::vector<int> faces;
-    for (const FaceThere& f : faces_) {
-      if (f.nearness == g.nearness) faces.push_back(f.face);
-    }
-    for (const int f : faces) {
-      if (patch(f) != patch(faces.front())) return false;
-    }
-    return std::ranges::all_of(rays(g.lines), [&](const PictureRay& ray) {
-      return std::ranges::any_of(faces, [&](int f) { return contains(*eye_, f, ray); });
+    const std::vector<PictureRay> beside = rays(g.lines);
+    const std::vector<int> shown = patches_beside(g, beside.front());
+    return !shown.empty() && std::ranges::all_of(beside, [&](const PictureRay& ray) {
+      return patches_beside(g, ray) == shown;
     });
   });
 }
@@ -208,28 +219,44 @@ Accident PointInspector::name() const {
   std::ranges::sort(found.generators);
   found.generators.erase(std::ranges::unique(found.generators).begin(),
                          found.generators.end());
-  found.kind = corners > 1          ? AccidentKind::CornerOnCorner
-               : corners == 1       ? AccidentKind::CornerOnEdge
-               : groups_.size() > 2 ? AccidentKind::ThreeEdges
-                                    : AccidentKind::AlongEdge;
+  found.kind = corners > 1    ? AccidentKind::CornerOnCorner
+               : corners == 1 ? AccidentKind::CornerOnEdge
+                              : AccidentKind::ThreeEdges;
   return found;
 }
 
-std::optional<Accident> PointInspector::inspect() {
+// Of a point that some lines may share, or of one within a stretch that they may share.
+std::optional<Accident> PointInspector::inspect(bool stretch) {
   find_lines();
   if (groups_.size() < 2) return std::nullopt;
   leave_out_hidden();
   leave_out_seams();
   if (groups_.size() < 2) return std::nullopt;
-  if (groups_.size() == 2 && straight(groups_[0]) && straight(groups_[1])) {
-    const int line = groups_[0].lines.front().line;
-    const auto [a, b] = eye_->scene().lines()[line].ends;
-    const auto [c, d] = eye_->scene().lines()[groups_[1].lines.front().line].ends;
-    const bool along =
-        eye_->orient(a, b, c) == Sign::Zero && eye_->orient(a, b, d) == Sign::Zero;
-    if (!along) return std::nullopt;  // one passes behind the other
+  if (in_one_stretch()) {
+    if (!stretch) return std::nullopt;
+    // Lines that continue each other are named as one.
+    for (Group& g : groups_) {
+      g.lines = {{eye_->scene().whole_line(g.lines[0].line), true, true}};
+    }
+    Accident found = name();
+    found.kind = AccidentKind::AlongEdge;
+    return found;
   }
+  if (stretch) return std::nullopt;
+  // One edge that passes behind another.
+  if (groups_.size() == 2 && straight(groups_[0]) && straight(groups_[1]))
+    return std::nullopt;
   return name();
+}
+
+// All that passes here are lines that go straight on, one behind the other.
+bool PointInspector::in_one_stretch() const {
+  const auto [a, b] = eye_->scene().lines()[groups_[0].lines.front().line].ends;
+  return std::ranges::all_of(groups_, [&](const Group& g) {
+    const auto [c, d] = eye_->scene().lines()[g.lines.front().line].ends;
+    return straight(g) && eye_->orient(a, b, c) == Sign::Zero &&
+           eye_->orient(a, b, d) == Sign::Zero;
+  });
 }
 
 // Whether an eye near by would see a facet that is seen edge-on: does sight reach a point
@@ -301,6 +328,13 @@ class EdgeOnFace {
   int face_;
 };
 
+PicturePoint middle(const EyeSpace& eye, const Suspect& s) {
+  const LineCuts cuts(eye, s.line);
+  const auto [a, b] = eye.scene().lines()[s.line].ends;
+  return {eye, along(eye.exact_vector(a), eye.exact_vector(b),
+                     Rational((cuts.exact(s.at) + cuts.exact(*s.to)) / 2))};
+}
+
 void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
                   std::span<const std::uint8_t> possibly_seen,
                   std::vector<Accident>& accidents) {
@@ -315,8 +349,9 @@ void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
       if (line < 0) continue;
       if (eye.end_on(line)) {
         ends.push_back(line);
-      } else if (const auto part = viewer.part_in_sight(line);
-                 part && EdgeOnFace(eye, possibly_seen, f).exposed(line, *part)) {
+      } else if (std::ranges::any_of(viewer.parts_in_sight(line), [&](const auto& part) {
+                   return EdgeOnFace(eye, possibly_seen, f).exposed(line, part);
+                 })) {
         accidents.push_back({AccidentKind::EdgeOn, {{GeneratorKind::Face, facet}}});
       }
     }
@@ -339,20 +374,26 @@ void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
 
 }  // namespace
 
-std::vector<Accident> find_accidents(const EyeSpace& eye, LineViewer& viewer,
+std::vector<Accident> find_accidents(const EyeSpace& eye, const Window& window,
+                                     LineViewer& viewer,
                                      std::span<const std::uint8_t> possibly_seen) {
   std::vector<Accident> found;
   find_edge_on(eye, viewer, possibly_seen, found);
   std::vector<PicturePoint> points;
+  std::vector<std::uint8_t> stretches;
   for (const Suspect& s : viewer.suspects()) {
     points.push_back(s.point >= 0 ? PicturePoint(eye, s.point)
-                                  : PicturePoint(eye, s.line, s.cut));
+                     : s.to       ? middle(eye, s)
+                                  : PicturePoint(eye, s.line, s.at));
+    stretches.push_back(s.to ? 1 : 0);
   }
   const std::vector<int> numbers = number_points(points);
   for (int i = 0; i < static_cast<int>(points.size()); ++i) {
     hear_stop();
-    if (numbers[i] != i) continue;
-    if (auto accident = PointInspector(eye, possibly_seen, points[i]).inspect())
+    if (numbers[i] != i && stretches[i] == 0) continue;
+    if (!window.contains(points[i])) continue;
+    PointInspector inspector(eye, possibly_seen, points[i]);
+    if (auto accident = inspector.inspect(stretches[i] != 0))
       found.push_back(std::move(*accident));
   }
   std::ranges::sort(found);

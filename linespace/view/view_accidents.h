@@ -13,6 +13,7 @@ namespace sightline::internal {
 /// All accidents that an eye near by would see resolved, ascending, each once.  What is
 /// hidden from all eyes near by makes none.
 [[nodiscard]] std::vector<Accident> find_accidents(
-    const EyeSpace& eye, LineViewer& viewer, std::span<const std::uint8_t> possibly_seen);
+    const EyeSpace& eye, const Window& window, LineViewer& viewer,
+    std::span<const std::uint8_t> possibly_seen);
 
 }  // namespace sightline::internal

@@ -5,10 +5,9 @@
 #include <map>
 #include <stdexcept>
 
-#include "linespace/picture/classes.h"
-#include "linespace/picture/picture_tree.h"
 #include "linespace/view/first_seen.h"
 #include "linespace/view/piece_joiner.h"
+#include "linespace/view/region_links.h"
 
 namespace sightline::internal {
 namespace {
@@ -33,8 +32,6 @@ class GraphBuilder {
       piece_of_.push_back(e.piece);
     }
     walk_around();
-    find_components();
-    join_cycles();
     label_regions();
     return std::move(graph_);
   }
@@ -42,15 +39,9 @@ class GraphBuilder {
  private:
   void walk_around();
   void turn_around(int point, std::vector<int>& leaving) const;
-  void find_components();
-  void join_cycles();
-  void link_component(int edge, const PictureTree& tree, bool to_the_end);
-  bool try_link(int edge, int weight, const PictureTree& tree, const PicturePoint& pole,
-                bool to_the_end);
   void label_regions();
   [[nodiscard]] FacetSides label(const std::vector<int>& faces) const;
   [[nodiscard]] const SeenBeside& told_beside(int half_edge) const;
-  [[nodiscard]] PicturePoint middle(int edge, int weight = 1) const;
   [[nodiscard]] PicturePoint far_end(int half_edge) const;
 
   const EyeSpace* eye_;
@@ -58,13 +49,8 @@ class GraphBuilder {
   const std::vector<LinePiece>* pieces_;
   std::span<const std::uint8_t> possibly_seen_;
   ViewGraph graph_;
-  std::vector<int> piece_of_;   // of edges
-  std::vector<int> cycles_;     // of half-edges
-  std::vector<int> component_;  // of points
-  int cycle_count_ = 0;
-  std::optional<Classes> cycle_classes_;
-  std::optional<Classes> linked_;              // components that some link joins
-  int pole_cycle_ = -1, pole_component_ = -1;  // of the region where ways end
+  std::vector<int> piece_of_;  // of edges
+  WalkedGraph walked_;
 };
 
 // The end of its line towards which a half-edge runs.
@@ -114,162 +100,13 @@ void GraphBuilder::walk_around() {
       graph_.next[leaving[p][i] ^ 1] = leaving[p][(i + k - 1) % k];
     }
   }
-  cycles_.assign(n, -1);
+  walked_.walks.assign(n, -1);
   for (int h = 0; h < n; ++h) {
-    if (cycles_[h] >= 0) continue;
-    for (int x = h; cycles_[x] < 0; x = graph_.next[x]) cycles_[x] = cycle_count_;
-    ++cycle_count_;
+    if (walked_.walks[h] >= 0) continue;
+    for (int x = h; walked_.walks[x] < 0; x = graph_.next[x])
+      walked_.walks[x] = walked_.walk_count;
+    ++walked_.walk_count;
   }
-}
-
-void GraphBuilder::find_components() {
-  Classes classes(graph_.points.size());
-  for (const auto& e : graph_.edges) classes.join(e.ends[0], e.ends[1]);
-  component_.assign(graph_.points.size(), -1);
-  for (int p = 0; p < static_cast<int>(component_.size()); ++p) {
-    int& number = component_[classes.root(p)];
-    if (number < 0) number = graph_.components++;
-    component_[p] = number;
-  }
-}
-
-// A point inside an edge, another for each weight.
-PicturePoint GraphBuilder::middle(int edge, int weight) const {
-  const auto [from, to] = graph_.edges[edge].ends;
-  const PicturePoint &p = graph_.points[from], &q = graph_.points[to];
-  // Of vectors of like length, their weighted sum.
-  const auto scale = [](const PicturePoint& x) {
-    const ExactPoint& v = x.exact();
-    const Rational size = abs(v[0]) + abs(v[1]) + abs(v[2]);
-    return Rational(std::ldexp(1.0, -std::ilogb(static_cast<double>(size))));
-  };
-  const Rational s = scale(p), t = weight * scale(q);
-  ExactPoint sum;
-  for (int i = 0; i < 3; ++i) sum[i] = s * p.exact()[i] + t * q.exact()[i];
-  return {*eye_, sum};
-}
-
-// Which walks bound one region?  A region between components of the graph has a walk on
-// each of them.  A way from a component to somewhere else crosses edges; between two
-// neighbouring crossings it runs in one region.
-void GraphBuilder::join_cycles() {
-  cycle_classes_.emplace(static_cast<std::size_t>(cycle_count_));
-  if (graph_.components < 2) return;
-  linked_.emplace(static_cast<std::size_t>(graph_.components));
-  std::vector<PictureTree::Piece> spans;
-  for (const auto& e : graph_.edges) {
-    spans.push_back({&graph_.points[e.ends[0]], &graph_.points[e.ends[1]]});
-  }
-  const PictureTree tree(spans, eye_->is_direction());
-  // Mostly the first other component on the way is enough; where components link in a
-  // circle, ways to the very end join them all.
-  for (const bool to_the_end : {false, true}) {
-    std::vector<std::uint8_t> done(static_cast<std::size_t>(graph_.components), 0);
-    for (int e = 0; e < static_cast<int>(graph_.edges.size()); ++e) {
-      const int c = component_[graph_.edges[e].ends[0]];
-      if (done[c]++ != 0) continue;
-      if (to_the_end && linked_->root(c) == linked_->root(0) && c != 0) continue;
-      link_component(e, tree, to_the_end);
-    }
-  }
-}
-
-void GraphBuilder::link_component(int edge, const PictureTree& tree, bool to_the_end) {
-  // All ways end at one point of the picture, which is in line with nothing.
-  const PicturePoint pole(
-      *eye_, eye_->is_direction()
-                 ? ExactPoint{Rational(3.3137), Rational(-5.8572), 1}
-                 : ExactPoint{Rational(0.4142), Rational(-0.7321), Rational(0.5391)});
-  // From some point of the edge; from another if that way passes a point of the graph.
-  for (int weight = 1; weight < 64; ++weight) {
-    if (try_link(edge, weight, tree, pole, to_the_end)) return;
-  }
-  throw std::logic_error("point view: no way out of a component");
-}
-
-bool GraphBuilder::try_link(int edge, int weight, const PictureTree& tree,
-                            const PicturePoint& pole, bool to_the_end) {
-  const PicturePoint start = middle(edge, weight);
-  const auto& e0 = graph_.edges[edge];
-  const Sign first = orient(graph_.points[e0.ends[0]], graph_.points[e0.ends[1]], pole);
-  if (first == Sign::Zero) return false;
-
-  // The edges that the way crosses, with the half-edge whose left it comes from.
-  struct Crossing {
-    int half_edge;
-    long double at, error;
-    std::optional<Rational> exact_at;
-  };
-  std::vector<Crossing> crossings;
-  bool generic = true;
-  tree.across(start, pole, [&](int e) {
-    if (e == edge || !generic) return;
-    const PicturePoint& p = graph_.points[graph_.edges[e].ends[0]];
-    const PicturePoint& q = graph_.points[graph_.edges[e].ends[1]];
-    const Sign at_p = orient(start, pole, p);
-    const Sign at_q = orient(start, pole, q);
-    if (at_p == Sign::Zero || at_q == Sign::Zero) {
-      generic = false;
-      return;
-    }
-    if (at_p == at_q) return;
-    const Sign from = orient(p, q, start);
-    const Sign to = orient(p, q, pole);
-    // In line with the start, which is on another edge: the way leaves that line at once.
-    if (from == Sign::Zero) return;
-    if (to == Sign::Zero) {
-      generic = false;
-      return;
-    }
-    // Opposite sides both ways; and not on the other side of the sphere.
-    if (from == to || from == at_p) return;
-    // Where on the way, as a ratio of the distances of its ends from the edge's line.  An
-    // edge is at least as long as its ends' errors are small.
-    const LongVector n = cross(p.vector(), q.vector());
-    const long double a = dot(n, start.vector()), b = dot(n, pole.vector());
-    const long double off = 8 * (p.error() + q.error() + start.error() + 0x1p-60L);
-    const long double size = std::abs(a) + std::abs(b);
-    crossings.push_back({from == Sign::Positive ? 2 * e : 2 * e + 1,
-                         std::abs(a) / size,
-                         size > 4 * off ? 4 * off / size : 1,
-                         {}});
-  });
-  if (!generic) return false;
-  const auto exact_at = [&](Crossing& c) -> const Rational& {
-    if (!c.exact_at) {
-      const auto& ends = graph_.edges[c.half_edge / 2].ends;
-      const ExactPoint n =
-          exact_cross(graph_.points[ends[0]].exact(), graph_.points[ends[1]].exact());
-      const Rational a = exact_dot(n, start.exact()), b = exact_dot(n, pole.exact());
-      c.exact_at = quotient(a, Rational(a - b));
-    }
-    return *c.exact_at;
-  };
-  std::sort(crossings.begin(), crossings.end(), [&](Crossing& x, Crossing& y) {
-    if (std::abs(x.at - y.at) > x.error + y.error) return x.at < y.at;
-    return exact_at(x) < exact_at(y);
-  });
-
-  int here = first == Sign::Positive ? cycles_[2 * edge] : cycles_[2 * edge + 1];
-  int component = component_[e0.ends[0]];
-  for (const Crossing& c : crossings) {
-    const int other = component_[graph_.edges[c.half_edge / 2].ends[0]];
-    if (other != component) {
-      cycle_classes_->join(here, cycles_[c.half_edge]);
-      linked_->join(component, other);
-      if (!to_the_end) return true;
-    }
-    here = cycles_[c.half_edge ^ 1];
-    component = other;
-  }
-  // Those whose ways end here lie in one region with the pole.
-  if (pole_cycle_ >= 0) {
-    cycle_classes_->join(here, pole_cycle_);
-    linked_->join(component, pole_component_);
-  }
-  pole_cycle_ = here;
-  pole_component_ = component;
-  return true;
 }
 
 // Faces that the half-edge's piece tells of its left; empty when that lies behind it.
@@ -290,12 +127,16 @@ FacetSides GraphBuilder::label(const std::vector<int>& faces) const {
 }
 
 void GraphBuilder::label_regions() {
-  std::vector<int> number(static_cast<std::size_t>(cycle_count_), -1);
+  walked_.points = &graph_.points;
+  for (const ViewGraph::Edge& e : graph_.edges) walked_.ends.push_back(e.ends);
+  RegionLinks links = link_regions(*eye_, walked_);
+  graph_.components = links.components;
+  std::vector<int> number(static_cast<std::size_t>(walked_.walk_count), -1);
   std::vector<std::uint8_t> known;
   std::vector<int> some_edge;
-  graph_.region.resize(cycles_.size());
-  for (std::size_t h = 0; h < cycles_.size(); ++h) {
-    int& region = number[cycle_classes_->root(cycles_[h])];
+  graph_.region.resize(walked_.walks.size());
+  for (std::size_t h = 0; h < walked_.walks.size(); ++h) {
+    int& region = number[links.walks.root(walked_.walks[h])];
     if (region < 0) {
       region = static_cast<int>(known.size());
       known.push_back(0);
@@ -319,7 +160,9 @@ void GraphBuilder::label_regions() {
     const auto [a, b] = eye_->scene().lines()[graph_.edges[h / 2].line].ends;
     ExactPoint left = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
     if (h % 2 == 1) left = {-left[0], -left[1], -left[2]};
-    graph_.regions[r] = label(first_seen(*eye_, {middle(h / 2), {left}}, possibly_seen_));
+    const auto [p, q] = graph_.edges[h / 2].ends;
+    const PicturePoint inside = point_inside(*eye_, graph_.points[p], graph_.points[q]);
+    graph_.regions[r] = label(first_seen(*eye_, {inside, {left}}, possibly_seen_));
   }
   if (!graph_.regions.empty()) return;
   // All is background; or all is material, where the eye lies on one object within

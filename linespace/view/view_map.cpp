@@ -101,7 +101,12 @@ void MapMaker::find_seams() {
   for (int h = 0; h < static_cast<int>(graph_->next.size()); ++h) {
     if (seam_[h / 2] == 0) leaving_[graph_->origin(h)].push_back(h);
   }
-  map_.seams = static_cast<int>(runs(true).size());
+  for (const Run& run : runs(true)) {
+    map_.seam_pieces.push_back(
+        {{graph_->origin(run.front()), graph_->origin(run.back() ^ 1)},
+         graph_->edges[run.front() / 2].line});
+  }
+  map_.seams = static_cast<int>(map_.seam_pieces.size());
 }
 
 // The half-edge that goes on from this one's end along the same line in space, with the
@@ -138,9 +143,12 @@ std::vector<MapMaker::Run> MapMaker::runs(bool seams) const {
   for (int e = 0; e < static_cast<int>(seam_.size()); ++e) {
     if ((seam_[e] != 0) != seams || done[e] != 0) continue;
     int first = 2 * e;
-    for (int back; (back = straight_on(first ^ 1)) >= 0;) first = back ^ 1;
+    for (int back; (back = straight_on(first ^ 1)) >= 0 && done[back / 2] == 0;) {
+      first = back ^ 1;
+      if (first / 2 == e) break;  // round in a circle: only by signs of doubles
+    }
     Run run;
-    for (int h = first; h >= 0; h = straight_on(h)) {
+    for (int h = first; h >= 0 && done[h / 2] == 0; h = straight_on(h)) {
       run.push_back(h);
       done[h / 2] = 1;
     }
@@ -189,16 +197,14 @@ Point MapMaker::place(int line, int point) const {
   const auto [a, b] = eye_->scene().lines()[line].ends;
   const PicturePoint& at = graph_->points[point];
   if (at.point() == a || at.point() == b) return eye_->scene().position(at.point());
-  const PicturePoint p(*eye_, a), q(*eye_, b);
-  long double length = 0;
-  for (int i = 0; i < 3; ++i)
-    length = std::max(length, std::abs(p.vector()[i] - q.vector()[i]));
-  // Of a line that is seen short, the point tells little.
-  if (at.error() + p.error() + q.error() > 0x1p-52L * length)
-    return rounded(exact_place(line, point));
   const LongVector &u = eye_->vector(a), &v = eye_->vector(b), &w = at.vector();
   const LongVector m = cross(u, w), n = cross(w, v);
   const long double s = std::sqrt(dot(m, m)), t = std::sqrt(dot(n, n));
+  // What an error of the point changes at most: much, on a line seen short or passing
+  // near.
+  const long double change =
+      (at.error() + 0x1p-60L) * (std::sqrt(dot(u, u)) + std::sqrt(dot(v, v)));
+  if (!(change < 0x1p-52L * (s + t))) return rounded(exact_place(line, point));
   const auto share = static_cast<double>(s / (s + t));
   const Point from = eye_->scene().position(a), to = eye_->scene().position(b);
   return from + share * (to - from);
@@ -239,14 +245,9 @@ MapEdgeKind MapMaker::kind(int edge) const {
 // Where a line passes a point of its picture, exactly.
 ExactPoint MapMaker::exact_place(int line, int point) const {
   const auto [a, b] = eye_->scene().lines()[line].ends;
-  const ExactPoint& w = graph_->points[point].exact();
-  const ExactPoint m = exact_cross(eye_->exact_vector(a), w);
-  const ExactPoint n = exact_cross(w, eye_->exact_vector(b));
-  // w = s u + t v: m and n are t and s times u x v.
-  int i = 0;
-  while (i < 2 && m[i] + n[i] == 0) ++i;
+  const auto [s, t] = LineCuts(*eye_, line).shares(graph_->points[point].exact());
   return along(eye_->scene().exact(a), eye_->scene().exact(b),
-               quotient(m[i], Rational(m[i] + n[i])));
+               quotient(t, Rational(s + t)));
 }
 
 // Two lines seen to cross in a point of the picture pass one point of space there.

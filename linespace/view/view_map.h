@@ -21,6 +21,12 @@ struct ViewMap {
   std::vector<int> point_of_vertex;
   std::vector<std::array<int, 2>> lines_of_vertex;
   std::vector<int> line_of_edge;  ///< whose name the edge has
+  /// Of each seam its two end points in the graph, and its first line.
+  struct Seam {
+    std::array<int, 2> ends;
+    int line;
+  };
+  std::vector<Seam> seam_pieces;
 };
 
 [[nodiscard]] ViewMap make_map(const EyeSpace& eye, const ViewGraph& graph);

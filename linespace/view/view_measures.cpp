@@ -51,7 +51,7 @@ class Measurer {
     const long double rest = 1 + r.dot(u) + u.dot(v) + v.dot(r);
     // Where three points lie nearly on one great circle around the eye, both vanish.
     sum.value += std::max(std::abs(det), std::abs(rest)) < 0x1p-12L
-                     ? accurate_angle(*sum.reference, from, to)
+                     ? accurate_angle(graph_->points[*sum.reference].exact(), from, to)
                      : 2 * std::atan2(det, rest);
   }
 
@@ -65,11 +65,16 @@ class Measurer {
   /// Boundaries round the eye: any point of the sphere will do that is not on them.
   [[nodiscard]] long double angle_around(std::span<const int> half_edges) const {
     const LongEigen r(0.36L, -0.48L, 0.8L);
+    const ExactPoint exact_r{Rational(0.36), Rational(-0.48), Rational(0.8)};
     long double sum = 0;
     for (const int h : half_edges) {
-      const LongEigen &u = points_[graph_->origin(h)],
-                      &v = points_[graph_->origin(h ^ 1)];
-      sum += 2 * std::atan2(r.dot(u.cross(v)), 1 + r.dot(u) + u.dot(v) + v.dot(r));
+      const int from = graph_->origin(h), to = graph_->origin(h ^ 1);
+      const LongEigen &u = points_[from], &v = points_[to];
+      const long double det = r.dot(u.cross(v));
+      const long double rest = 1 + r.dot(u) + u.dot(v) + v.dot(r);
+      sum += std::max(std::abs(det), std::abs(rest)) < 0x1p-12L
+                 ? accurate_angle(exact_r, from, to)
+                 : 2 * std::atan2(det, rest);
     }
     return sum;
   }
@@ -121,14 +126,13 @@ class Measurer {
 
   // 2 atan2 of both, over vectors a, b, c of any length: det(a, b, c) and
   // |a| |b| |c| + (a . b) |c| + (b . c) |a| + (c . a) |b|.
-  [[nodiscard]] long double accurate_angle(int r, int from, int to) const {
-    const std::array<int, 3> points{r, from, to};
-    if (r == from || r == to) return 0;
+  [[nodiscard]] long double accurate_angle(const ExactPoint& r, int from, int to) const {
+    const std::array<const ExactPoint*, 3> points{&r, &graph_->points[from].exact(),
+                                                  &graph_->points[to].exact()};
     std::array<std::array<LongFloat, 3>, 3> v;
     std::array<LongFloat, 3> length;
     for (int i = 0; i < 3; ++i) {
-      const ExactPoint& exact = graph_->points[points[i]].exact();
-      for (int j = 0; j < 3; ++j) v[i][j] = LongFloat(exact[j]);
+      for (int j = 0; j < 3; ++j) v[i][j] = LongFloat((*points[i])[j]);
       length[i] = sqrt(dot(v[i], v[i]));
     }
     const LongFloat det = dot(v[0], cross(v[1], v[2]));

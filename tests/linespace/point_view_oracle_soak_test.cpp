@@ -14,6 +14,13 @@ TEST(PointViewOracleSoak, ViewsEqualTheNaiveOnes) {
   }
 }
 
+TEST(PointViewOracleSoak, LargeScenes) {
+  for (const std::string& report :
+       compare_views({.eyes = 300, .seed = 3000, .general = false, .large = true})) {
+    ADD_FAILURE() << report;
+  }
+}
+
 TEST(PointViewOracleSoak, GeneralViewsAndStructures) {
   for (const std::string& report :
        compare_views({.eyes = 50, .seed = 2000, .general = true})) {

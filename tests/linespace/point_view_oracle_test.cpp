@@ -29,6 +29,14 @@ TEST(PointViewOracle, ViewsEqualTheNaiveOnes) {
                 .most_reports = setting("SIGHTLINE_VIEW_REPORTS", 10)});
 }
 
+TEST(PointViewOracle, LargeScenes) {
+  expect_equal({.eyes = setting("SIGHTLINE_VIEW_EYES", 1),
+                .seed = static_cast<std::uint64_t>(setting("SIGHTLINE_VIEW_SEED", 0)),
+                .general = false,
+                .large = true,
+                .on_scene = setting("SIGHTLINE_VIEW_ON_SCENE", 1) != 0});
+}
+
 // SIGHTLINE_VIEW_EVERY: of how many scenes one.
 TEST(PointViewOracle, GeneralViewsStructuresAndGradientsAreTheNaiveOnes) {
   expect_equal({.eyes = setting("SIGHTLINE_VIEW_EYES", 1),

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "linespace/numbers/exact_position.h"
-#include "linespace/picture/view_scene.h"
+#include "linespace/sight/face_crossings.h"
 #include "tests/support/generators.h"
 #include "tests/support/view_scenes.h"
 
@@ -21,10 +21,8 @@ using internal::ExactPoint;
 using Number = internal::Rational;
 
 bool crosses(const Scene& scene) {
-  const internal::ViewScene shared(scene, {});
-  return std::ranges::any_of(shared.lines(), [](const internal::ViewLine& line) {
-    return line.crossing[0] >= 0;
-  });
+  return !internal::FaceCrossings(internal::Silhouettes(scene, EventMode::Solid, {}))
+              .empty();
 }
 
 ExactPoint some_place(Random& random, const Scene& scene) {
@@ -218,10 +216,11 @@ class Comparison {
     if (at - stretch->u_from < 0x1p-48 || stretch->u_to - at < 0x1p-48) return;
     const PointView view = index_.view(eye);
     ++report_->views;
-    if (view.general != stretch->view->general) {
-      return tell("general at " + u.str() + ": " + std::to_string(view.general));
+    // On a path in an event surface accidents come and go where the map stays.
+    if (view.general && stretch->view->general &&
+        view.structure != stretch->view->structure) {
+      tell("another view at " + u.str());
     }
-    if (view.structure != stretch->view->structure) tell("another view at " + u.str());
     if (map_counts(view) != map_counts(*stretch->view)) {
       tell("another map at " + u.str());
     }

@@ -148,15 +148,14 @@ class Comparison {
 
   void compare_vertices() {
     std::vector<char> used(naive_.vertices.size(), 0);
-    partner_.assign(view_.vertices.size(), -1);
-    for (std::size_t i = 0; i < view_.vertices.size(); ++i) {
-      const MapVertex& v = view_.vertices[i];
-      for (std::size_t k = 0; k < used.size() && partner_[i] < 0; ++k) {
+    for (const MapVertex& v : view_.vertices) {
+      bool found = false;
+      for (std::size_t k = 0; k < used.size() && !found; ++k) {
         if (used[k] != 0 || !same_vertex(v, naive_.vertices[k])) continue;
         used[k] = 1;
-        partner_[i] = static_cast<int>(k);
+        found = true;
       }
-      if (partner_[i] < 0) {
+      if (!found) {
         tell(std::string("vertex ") + name(v.kind) + " corner " +
              std::to_string(v.corner) + " near " + text(v.near) + " far " + text(v.far) +
              " at " + text(v.at) + ": the library's only");
@@ -176,8 +175,9 @@ class Comparison {
     const auto ends = [&](int first, int second, int left, int right) {
       return near(e.segment[0], rounded(naive.in_space[first])) &&
              near(e.segment[1], rounded(naive.in_space[second])) &&
-             partner_[e.ends[0]] == naive.ends[first] &&
-             partner_[e.ends[1]] == naive.ends[second] &&
+             same_vertex(view_.vertices[e.ends[0]], naive_.vertices[naive.ends[first]]) &&
+             same_vertex(view_.vertices[e.ends[1]],
+                         naive_.vertices[naive.ends[second]]) &&
              view_.regions[e.left].facets == naive_.regions[left].facets &&
              view_.regions[e.right].facets == naive_.regions[right].facets;
     };
@@ -273,7 +273,6 @@ class Comparison {
   const NaiveEye& eye_;
   const NaiveView& naive_;
   const PointView& view_;
-  std::vector<int> partner_;  ///< naive vertex of each vertex
   std::vector<std::string> found_;
 };
 
@@ -465,7 +464,7 @@ std::vector<std::string> compare_views(const ViewRun& run) {
   std::vector<std::string> result;
   std::uint64_t seed = run.seed;
   std::map<std::string, int> told;
-  for (const ViewScene& each : view_scenes()) {
+  for (const ViewScene& each : run.large ? large_view_scenes() : view_scenes()) {
     if (++seed % run.every != 0) continue;
     const Scene scene(each.soup);
     const SceneComparison comparison(scene);
@@ -473,7 +472,9 @@ std::vector<std::string> compare_views(const ViewRun& run) {
     for (const NaiveEye& eye : eyes) {
       if (!run.on_scene && lies_on(scene, eye)) continue;
       if (comparison.differences(eye, run.general).empty()) continue;
-      const PolygonSoup soup = smallest_differing(each.soup, eye, run.general);
+      // Smaller than large, a scene would be another case.
+      const PolygonSoup soup =
+          run.large ? each.soup : smallest_differing(each.soup, eye, run.general);
       const Scene small(soup);
       const std::vector<std::string> found =
           SceneComparison(small).differences(eye, run.general);

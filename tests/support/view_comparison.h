@@ -52,10 +52,11 @@ struct ViewRun {
   std::uint64_t seed;    ///< another choice of eyes
   bool general;          ///< compare `general` too, and structures
   int every = 1;         ///< of this many scenes one
+  bool large = false;    ///< large_view_scenes() instead
   bool on_scene = true;  ///< eyes on facets, edges and corners too
   int most_reports = 10;
 };
-/// Compares on all view_scenes(); reports of the smallest cases.
+/// Compares on view_scenes(); reports of the smallest cases.
 [[nodiscard]] std::vector<std::string> compare_views(const ViewRun& run);
 
 /// Scene (as OBJ), eye and differences.

@@ -276,6 +276,14 @@ std::vector<ViewScene> view_scenes() {
   return result;
 }
 
+std::vector<ViewScene> large_view_scenes() {
+  return {{"large grid city", grid_city(1, 252, {.may_touch = true})},
+          {"large city", city(2, 240)},
+          {"large crowd", random_boxes(3, 36)},
+          {"large crowd of triangles", cut_into_triangles(random_boxes(4, 20))},
+          {"large triangle soup", triangle_soup(5, 200)}};
+}
+
 std::vector<NaiveEye> view_eyes(const Scene& scene, std::uint64_t seed, int count) {
   Random random(seed);
   std::vector<NaiveEye> result;

@@ -21,6 +21,9 @@ struct ViewScene {
 /// sheets that cross, frames, cuts into triangles, facets that coincide.
 [[nodiscard]] std::vector<ViewScene> view_scenes();
 
+/// A few scenes of 200 to 300 faces, where the library leaves out what others cover.
+[[nodiscard]] std::vector<ViewScene> large_view_scenes();
+
 /// `count` eyes and directions: a third anywhere, as doubles, small integers or
 /// fractions; a third in planes of faces and on lines of edges; a third on facets, edges
 /// and corners (directions: along edges, in faces, across faces).  Some are 2^-60 beside

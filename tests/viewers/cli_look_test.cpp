@@ -241,6 +241,16 @@ TEST_F(CliLook, FilesHoldWhatIsSeen) {
 }
 
 // From outside the window holds all: each edge of the map is drawn, once.
+TEST_F(CliLook, DrawsWhatIsHiddenOnRequest) {
+  const std::string drawing = (folder_ / "cube.svg").string();
+  ASSERT_EQ(look(kCube + " --direction 1,2,3 --svg " + drawing), 0) << err();
+  EXPECT_EQ(occurrences(contents(drawing), "<line class=\"hidden\""), 0U);
+  ASSERT_EQ(look(kCube + " --direction 1,2,3 --hidden --seams --svg " + drawing), 0)
+      << err();
+  EXPECT_TRUE(is_well_formed(contents(drawing)));
+  EXPECT_EQ(occurrences(contents(drawing), "<line class=\"hidden\""), 3U);
+}
+
 TEST_F(CliLook, TheWindowHoldsAllThatIsSeenFromOutside) {
   for (const std::string view : {"--from 9,8,7", "--direction 1,2,3", "--from 3,-5,9"}) {
     ASSERT_EQ(look(kRoom + " " + view + " --svg " + file("v.svg") + " --list --json " +

@@ -33,6 +33,7 @@ struct LookOptions : CommonOptions {
   double fov = 0;  ///< degrees; 0: not told
   std::string svg, png, csv;
   int pixels = 1400;
+  bool seams = false, hidden = false;
 
   [[nodiscard]] bool draws() const {
     return !svg.empty() || !png.empty() || !vtk.empty();
@@ -140,6 +141,7 @@ struct Seen {
   Json json;
   std::string csv;
   std::optional<PointView> view;  ///< where it is drawn
+  std::vector<FurtherLine> further;
 };
 
 /// All views, or as many of the first as the budget allowed.
@@ -175,7 +177,11 @@ AllSeen see(Session& session, const LookOptions& options, const Scene& scene,
   AllSeen all;
   const auto step = [&](int&, std::size_t i) {
     PointView view = view_of(index, questions[i], of_one);
-    Seen seen{view_json(scene, questions[i], view, options.list), {}, {}};
+    Seen seen{view_json(scene, questions[i], view, options.list), {}, {}, {}};
+    if (options.draws() && (options.seams || options.hidden)) {
+      seen.further =
+          index.further_lines(questions[i].eye, options.seams, options.hidden, of_one);
+    }
     if (!options.csv.empty()) seen.csv = view_csv(scene, i, view);
     if (options.draws()) seen.view = std::move(view);
     return seen;
@@ -277,7 +283,8 @@ std::vector<ViewDrawing> drawings_of(const LookOptions& options, const Scene& sc
   const PictureWish wish = wish_of(options);
   for (std::size_t i = 0; i < all.views.size(); ++i) {
     try {
-      drawings.push_back(view_drawing(scene, *all.views[i].view, wish));
+      drawings.push_back(
+          view_drawing(scene, *all.views[i].view, wish, all.views[i].further));
     } catch (const InvalidInput& refusal) {
       throw UsageError(fmt::format("{}: {}", questions[i].where, refusal.what()));
     }
@@ -517,14 +524,18 @@ void add_file_options(CLI::App& command, LookOptions& options) {
       .add_option("--svg", options.svg,
                   "draw the view: patches (path.patch), edges (line.silhouette, .crease, "
                   ".valley, .boundary, .contact, .crossing) and vertices (circle.corner, "
-                  ".t, .touch, .accident), each with its name; seams and hidden lines "
-                  "are left out; of several views NAME0.svg, NAME1.svg, ..., 100 at most")
+                  ".t, .touch, .accident), each with its name; see --seams "
+                  "and --hidden; of several views NAME0.svg, NAME1.svg, ..., 100 at most")
       ->type_name("FILE");
   command
       .add_option("--png", options.png,
                   "the same as a picture, no display needed; of several views NAME0.png, "
                   "NAME1.png, ...")
       ->type_name("FILE");
+  command.add_flag("--seams", options.seams,
+                   "draw seams too (line.seam): between two facets of one patch");
+  command.add_flag("--hidden", options.hidden,
+                   "draw what is hidden of edges too (line.hidden)");
   command
       .add_option("--pixels", options.pixels,
                   "length of the longer side of --png (default 1400)")

@@ -48,6 +48,12 @@ std::string style_sheet(std::size_t edges) {
     css += fmt::format("  .{} {{ stroke: {}; stroke-width: {:g}; }}\n", name(kind),
                        hex(style.colour), style.width);
   }
+  for (const auto kind : {FurtherLine::Kind::Seam, FurtherLine::Kind::Hidden}) {
+    const LineStyle style = style_of(kind, edges);
+    css += fmt::format(
+        "  .{} {{ stroke: {}; stroke-width: {:g};{} }}\n", name(kind), hex(style.colour),
+        style.width, kind == FurtherLine::Kind::Hidden ? " stroke-dasharray: 5 4;" : "");
+  }
   return css;
 }
 
@@ -88,6 +94,15 @@ std::string edge_element(const MapEdge& edge, const DrawnEdge& drawn,
       name(edge.kind), drawn.edge, line, a.x(), a.y(), b.x(), b.y(), told(edge.line));
 }
 
+std::string further_element(const FurtherLine& line, const DrawnFurther& drawn,
+                            const Sheet& sheet) {
+  const PlanePoint a = sheet.place(drawn.points[0]), b = sheet.place(drawn.points[1]);
+  return fmt::format(
+      "<line class=\"{0}\" x1=\"{1:.7g}\" y1=\"{2:.7g}\" x2=\"{3:.7g}\" "
+      "y2=\"{4:.7g}\"><title>{5}: {0}</title></line>\n",
+      name(line.kind), a.x(), a.y(), b.x(), b.y(), told(line.line));
+}
+
 std::string vertex_title(const Scene& scene, const MapVertex& vertex) {
   switch (vertex.kind) {
     case MapVertexKind::Corner:
@@ -124,6 +139,10 @@ std::string view_svg(const Scene& scene, const PointView& view,
   text += "<g id=\"patches\">\n";
   for (const DrawnRegion& drawn : drawing.regions) {
     text += patch_element(scene, view.regions[drawn.region], drawn, sheet);
+  }
+  if (!drawing.further.empty()) text += "</g>\n<g id=\"further\">\n";
+  for (const DrawnFurther& drawn : drawing.further) {
+    text += further_element(drawing.further_lines[drawn.line], drawn, sheet);
   }
   text += "</g>\n<g id=\"edges\">\n";
   for (const DrawnEdge& drawn : drawing.edges) {

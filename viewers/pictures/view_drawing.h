@@ -1,5 +1,5 @@
 // What is drawn of a view: its regions as filled polygons of the picture's plane, its
-// edges and vertices, all cut at the window.  Seams and hidden lines are left out.
+// edges and vertices, all cut at the window; seams and hidden lines, if asked for.
 
 #pragma once
 
@@ -27,17 +27,25 @@ struct DrawnVertex {
   PlanePoint at;
 };
 
+struct DrawnFurther {
+  int line;  ///< position in the list that was given
+  std::array<PlanePoint, 2> points;
+};
+
 /// What has nothing in the window is not there.
 struct ViewDrawing {
   PicturePlane plane;
   std::vector<DrawnRegion> regions;
   std::vector<DrawnEdge> edges;
   std::vector<DrawnVertex> vertices;
+  std::vector<DrawnFurther> further;
+  std::vector<FurtherLine> further_lines;  ///< as they were given
 };
 
 /// Throws InvalidInput as PicturePlane does.
 [[nodiscard]] ViewDrawing view_drawing(const Scene& scene, const PointView& view,
-                                       const PictureWish& wish = {});
+                                       const PictureWish& wish = {},
+                                       std::vector<FurtherLine> further = {});
 
 /// The directions, or plane points, of the vertices along one walk of a region.
 [[nodiscard]] std::vector<Point> ring_of(const PointView& view,
@@ -56,6 +64,8 @@ struct LineStyle {
 };
 /// Of a drawing of so many edges: many lines are thin.
 [[nodiscard]] LineStyle style_of(MapEdgeKind kind, std::size_t edges = 1);
+
+[[nodiscard]] LineStyle style_of(FurtherLine::Kind kind, std::size_t edges = 1);
 
 /// The paper of these pictures, which is seen where nothing of the scene is.
 constexpr Colour kPaper{0.985F, 0.987F, 0.992F};

@@ -141,6 +141,12 @@ Image view_image(const ViewDrawing& drawing, const PointView& view, int pixels,
   }
   // Widths are told for a picture of 1000 pixels.
   const double width = kSamples * pixels / 1000.0;
+  for (const DrawnFurther& further : drawing.further) {
+    const LineStyle style =
+        style_of(drawing.further_lines[further.line].kind, drawing.edges.size());
+    samples.stroke(further.points[0], further.points[1], style.width * width,
+                   style.colour);
+  }
   for (const DrawnEdge& edge : drawing.edges) {
     stage.at(done++, count);
     const LineStyle style = style_of(view.edges[edge.edge].kind, drawing.edges.size());

@@ -118,6 +118,10 @@ std::string_view name(MapVertexKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
+std::string_view name(FurtherLine::Kind kind) {
+  return kind == FurtherLine::Kind::Seam ? "seam" : "hidden";
+}
+
 std::string_view name(MapEdgeKind kind) {
   static constexpr const char* kNames[] = {"silhouette", "crease",  "valley",
                                            "boundary",   "contact", "crossing"};

@@ -1,4 +1,4 @@
-#include "linespace/view/eye_star.h"
+#include "linespace/picture/eye_star.h"
 
 #include <algorithm>
 
