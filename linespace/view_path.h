@@ -41,7 +41,8 @@ namespace sightline {
 ///    of these the maps are compared, and accidents that go on are no events.
 /// A path of one viewpoint has no segments.  Throws InvalidInput for a path that mixes
 /// eyes and directions, for opposite neighbouring directions, and for coordinates that
-/// PointViewIndex::view refuses.  Of the request precision, budget and stop are heard.
+/// PointViewIndex::view refuses.  Of the request budget and stop are heard; the precision
+/// is always Exact.
 /// Cost: a view for each event and for each suspected one; for n edges and k visible map
 /// edges met on the way, k n tests of a few nanoseconds.
 [[nodiscard]] ViewPath view_path(const PointViewIndex& index,

@@ -57,6 +57,7 @@ class Walker {
         scene_(index.shared(), size_of(index.shared().scene(), path)) {
     look_ = [this, &index, &request](const Viewpoint& eye) {
       Request one = deadline_.what_is_left(request);
+      one.precision = Precision::Exact;
       one.progress = nullptr;
       return index.view(eye, one);
     };
@@ -167,7 +168,7 @@ MapCounts map_counts(const PointView& view) {
 ViewPath view_path(const PointViewIndex& index, std::span<const Viewpoint> path,
                    bool keep_views, const Request& request) {
   check(path);
-  const PrecisionScope precision(request.precision);
+  const PrecisionScope precision(Precision::Exact);
   try {
     return Walker(index, path, keep_views, request).walk();
   } catch (const Stopped&) {

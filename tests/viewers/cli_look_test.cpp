@@ -412,6 +412,7 @@ TEST_F(CliLook, RefusesPathsByTheElement) {
   const std::string good = file("good.json", R"({"points": [[3, 3, 3], [4, 4, 5]]})");
   refused_with(" --from 1,2,3 --path " + good, "--path: takes no --from");
   refused_with(" --csv " + file("p.csv") + " --path " + good, "--path: answers");
+  refused_with(" --precision double --path " + good, "--path: is answered exactly");
 }
 
 TEST_F(CliLook, NumbersTheFilesOfSeveralViews) {

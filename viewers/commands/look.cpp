@@ -339,6 +339,9 @@ void check_alone(const LookOptions& options) {
   if (!options.from.empty() || !options.direction.empty() || !options.at.empty()) {
     throw UsageError("--path: takes no --from, --direction or --at beside it");
   }
+  if (options.precision != Precision::Exact) {
+    throw UsageError("--path: is answered exactly, not with --precision double");
+  }
   if (options.draws() || !options.csv.empty()) {
     throw UsageError(
         "--path: answers in JSON only, without --svg, --png, --vtk or --csv");
@@ -348,7 +351,6 @@ void check_alone(const LookOptions& options) {
 ViewPath walk(Session& session, const LookOptions& options, const Scene& scene,
               const std::vector<Viewpoint>& path) {
   Request request = session.with_grace();
-  request.precision = options.precision;
   request.threads = options.threads;
   const PointViewIndex index(scene, request);
   session.limit(request);
@@ -404,7 +406,6 @@ ExitStatus run_path(Session& session, const LookOptions& options) {
   const std::vector<Viewpoint> path =
       session.read([&] { return path_question(JsonInput(options.path)); });
   const Meter meter;
-  const PrecisionScope precision(options.precision);
   const Scene scene = read_scene(session, options.scene, options.format);
   const ViewPath found = walk(session, options, scene, path);
   Json answer =
