@@ -112,8 +112,11 @@ void Walker::walk_segment(int segment) {
 void Walker::meet(int segment, const WalkViewPtr& before, const WalkViewPtr& after) {
   if (same_structure(scene_, before->view, after->view)) return;
   const PointView at = look_(path_[segment + 1]);
-  add_change(segment, 1, events_of(scene_.scene().scene(), at, before->view, after->view),
-             before->view, after->view);
+  const Scene& scene = scene_.scene().scene();
+  std::vector<PathEvent> events = events_of(scene, at, before->view, after->view);
+  // One event surface is left for another: both go on at this eye.
+  if (events.empty()) events = events_of(scene, at, PointView{}, PointView{});
+  add_change(segment, 1, std::move(events), before->view, after->view);
 }
 
 void Walker::add_change(int segment, double u, std::vector<PathEvent> events,

@@ -307,6 +307,15 @@ TEST(ViewPath, WhereSegmentsMeet) {
   EXPECT_EQ(on.changes[0].events[0].kind, PathEventKind::F);
   EXPECT_TRUE(
       walk(cube(), eyes({{2, -2, 0.5}, {1, -2, 0.5}, {2, -3, 0.5}})).changes.empty());
+  // Level with the floor, and then below it.
+  const ViewPath below =
+      walk(cube(), eyes({{0.25, -2, 0}, {0.75, -2, 0}, {0.5, -2, -1}}));
+  ASSERT_EQ(below.changes.size(), 1U);
+  EXPECT_EQ(below.changes[0].segment, 0);
+  EXPECT_EQ(below.changes[0].u, 1);
+  ASSERT_EQ(below.changes[0].events.size(), 1U);
+  EXPECT_EQ(below.changes[0].events[0].kind, PathEventKind::F);
+  EXPECT_EQ(below.changes[0].appears.size(), 1U);
   // The path begins and ends in planes.
   EXPECT_TRUE(walk(cube(), eyes({{0, -2, 0.5}, {1, -2, 0.5}})).changes.empty());
 }
