@@ -16,10 +16,10 @@ void expect_right(const PathRun& run) {
             << report.events << " events, " << report.views << " views\n";
 }
 
-TEST(ViewPathSoak, RandomPaths1) { expect_right({.paths = 56, .seed = 1000}); }
-TEST(ViewPathSoak, RandomPaths2) { expect_right({.paths = 56, .seed = 2000}); }
-TEST(ViewPathSoak, RandomPaths3) { expect_right({.paths = 56, .seed = 3000}); }
-TEST(ViewPathSoak, RandomPaths4) { expect_right({.paths = 56, .seed = 4000}); }
+TEST(ViewPathSoak, RandomPaths1) { expect_right({.paths = 32, .seed = 1000}); }
+TEST(ViewPathSoak, RandomPaths2) { expect_right({.paths = 32, .seed = 2000}); }
+TEST(ViewPathSoak, RandomPaths3) { expect_right({.paths = 32, .seed = 3000}); }
+TEST(ViewPathSoak, RandomPaths4) { expect_right({.paths = 32, .seed = 4000}); }
 
 TEST(ViewPathSoak, WhereFacesCross) {
   expect_right({.paths = 20, .seed = 5000, .crossing = true});
