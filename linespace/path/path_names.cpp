@@ -29,7 +29,10 @@ class MapText {
       const Words *from = &vertices[e.ends[0]], *to = &vertices[e.ends[1]];
       turned.push_back(*to < *from);
       if (turned.back()) std::swap(from, to);
-      Words words{whole(e.line), static_cast<int>(e.kind)};
+      // As in PointView::structure, a boundary counts as a silhouette.
+      const MapEdgeKind kind =
+          e.kind == MapEdgeKind::Boundary ? MapEdgeKind::Silhouette : e.kind;
+      Words words{whole(e.line), static_cast<int>(kind)};
       words.insert(words.end(), from->begin(), from->end());
       words.push_back(-2);
       words.insert(words.end(), to->begin(), to->end());
