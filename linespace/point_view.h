@@ -28,6 +28,10 @@
 
 namespace sightline {
 
+namespace internal {
+class ViewScene;
+}
+
 /// What of a scene all its views share.  Immutable; view() may be called from several
 /// threads.  Keeps a reference to the scene.
 class PointViewIndex {
@@ -62,6 +66,9 @@ class PointViewIndex {
   /// The patch of a facet as it is seen from its front or its back: facets, of all
   /// objects, that lie in one plane, face alike and hang together have one number.
   [[nodiscard]] int patch_of(int facet, bool front) const;
+
+  /// For what stands on views within the library.
+  [[nodiscard]] const internal::ViewScene& shared() const;
 
  private:
   struct Impl;

@@ -51,4 +51,8 @@ struct ViewQuestion {
 [[nodiscard]] ViewQuestion view_question(Viewpoint::Kind kind, const std::string& option,
                                          const std::string& text);
 
+/// {"points": [[x, y, z], ...]} or {"directions": [...]}, at least two, coordinates as
+/// above.  Throws InvalidInput that names the element.
+[[nodiscard]] std::vector<Viewpoint> path_question(const JsonInput& file);
+
 }  // namespace sightline::viewers

@@ -32,6 +32,8 @@ int PointViewIndex::patch_of(int facet, bool front) const {
   return impl_->scene.patch(facet, front);
 }
 
+const ViewScene& PointViewIndex::shared() const { return impl_->scene; }
+
 namespace {
 
 // Lines beside which a face that may be seen ends, or is cut by another, each once.

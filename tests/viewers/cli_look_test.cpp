@@ -353,6 +353,68 @@ TEST_F(CliLook, RefusesPicturesThatCannotBe) {
   EXPECT_EQ(out(), "");
 }
 
+TEST_F(CliLook, EventsAlongAPathOfPoints) {
+  const std::string path =
+      file("walk.json", R"({"points": [[3, 3, 0.5], ["-2", 3, "1/2"], [-2, -2, 0.5]]})");
+  const json j = answer(kCube + " --path " + path);
+  EXPECT_EQ(j.at("complete"), true);
+  const json& events = j.at("events");
+  ASSERT_EQ(events.size(), 4U);
+  for (int i = 0; i < 4; ++i) {
+    const json& e = events[i];
+    EXPECT_EQ(e.at("segment"), i / 2);
+    EXPECT_EQ(e.at("kind"), "F");
+    ASSERT_EQ(e.at("generators").size(), 1U);
+    EXPECT_EQ(e.at("generators")[0].at("type"), "face");
+    EXPECT_EQ(e.at("appears").size(), i % 2 == 0 ? 0U : 1U);
+    EXPECT_EQ(e.at("vanishes").size(), i % 2 == 0 ? 1U : 0U);
+    EXPECT_EQ(e.at("changes").at("regions"), i % 2 == 0 ? -1 : 1);
+    EXPECT_EQ(e.at("changes").at("edges"), i % 2 == 0 ? -3 : 3);
+  }
+  const json& views = j.at("views");
+  ASSERT_EQ(views.size(), 6U);
+  EXPECT_EQ(views[0].at("u_from"), 0);
+  EXPECT_EQ(views[0].at("u_to"), events[0].at("u"));
+  EXPECT_EQ(views[1].at("u_from"), events[0].at("u"));
+  EXPECT_EQ(views[2].at("u_to"), 1);
+  EXPECT_EQ(views[3].at("segment"), 1);
+  EXPECT_EQ(views[2].at("structure"), views[3].at("structure"));
+  EXPECT_FALSE(views[0].contains("map"));
+  EXPECT_TRUE(answer(kCube + " --list --path " + path).at("views")[0].contains("map"));
+}
+
+TEST_F(CliLook, EventsAlongGreatCirclesForPeople) {
+  const std::string path =
+      file("turn.json", R"({"directions": [[3, 2, 1], [-6, 4, 2]]})");
+  ASSERT_EQ(look(kCube + " --path " + path), 0);
+  EXPECT_NE(out().find("2 views, 2 events at 1 position"), std::string::npos) << out();
+  EXPECT_NE(out().find("segment 0 at 0.333333333: F (facet "), std::string::npos)
+      << out();
+}
+
+TEST_F(CliLook, RefusesPathsByTheElement) {
+  const auto refused_with = [&](const std::string& words, const std::string& mentioned) {
+    EXPECT_EQ(look(kCube + words + " --json " + file("answer.json")), 2) << words;
+    EXPECT_EQ(occurrences(err(), "\n"), 1U) << err();
+    EXPECT_NE(err().find(mentioned), std::string::npos) << err();
+    EXPECT_FALSE(fs::exists(file("answer.json")));
+  };
+  const auto refused = [&](const std::string& text, const std::string& mentioned) {
+    refused_with(" --path " + file("bad_path.json", text), "bad_path.json: " + mentioned);
+  };
+  refused("[]", "expected an object");
+  refused("{}", "expected either");
+  refused(R"({"points": [[3, 3, 3]]})", "points: expected at least two");
+  refused(R"({"points": [[3, 3, 3], [1, 2]]})", "points[1]: expected three");
+  refused(R"({"directions": [[3, 3, 3], [0, 0, 0]]})", "directions[1]: ");
+  refused(R"({"directions": [[1, 2, 3], [-2, -4, -6]]})", "viewpoints 0 and 1");
+  refused(R"({"points": [[3, 3, 3], [1, 2, 1e300]]})", "the eye: ");
+  const std::string good = file("good.json", R"({"points": [[3, 3, 3], [4, 4, 5]]})");
+  refused_with(" --from 1,2,3 --path " + good, "--path: takes no --from");
+  refused_with(" --csv " + file("p.csv") + " --path " + good, "--path: answers");
+  refused_with(" --precision double --path " + good, "--path: is answered exactly");
+}
+
 TEST_F(CliLook, NumbersTheFilesOfSeveralViews) {
   ASSERT_EQ(look(kCube + " --from 9,8,7 --direction 1,2,3 --pixels 64 --svg " +
                  file("two.svg") + " --png " + file("two.png")),

@@ -15,6 +15,7 @@
 #include "viewers/json_text.h"
 #include "viewers/pictures/view_drawing.h"
 #include "viewers/pictures/view_image.h"
+#include "viewers/queries/path_answer.h"
 #include "viewers/queries/view_answer.h"
 #include "viewers/questions.h"
 
@@ -26,6 +27,7 @@ namespace fs = std::filesystem;
 struct LookOptions : CommonOptions {
   const CLI::App* command = nullptr;  ///< knows in which order the views were named
   std::vector<std::string> from, direction, at;
+  std::string path;
   bool list = false;
   std::vector<double> window, up, towards;
   double fov = 0;  ///< degrees; 0: not told
@@ -71,7 +73,8 @@ std::vector<ViewQuestion> questions_of(Session& session, const LookOptions& opti
   }
   if (questions.empty()) {
     throw UsageError(
-        "look: from where? name --from x,y,z, --direction x,y,z or --at FILE");
+        "look: from where? name --from x,y,z, --direction x,y,z, --at FILE or --path "
+        "FILE");
   }
   return questions;
 }
@@ -330,9 +333,94 @@ void write_csv(OutputFile& file, const AllSeen& all) {
   file.commit();
 }
 
+// ---- along a path ---------------------------------------------------------------------
+
+void check_alone(const LookOptions& options) {
+  if (!options.from.empty() || !options.direction.empty() || !options.at.empty()) {
+    throw UsageError("--path: takes no --from, --direction or --at beside it");
+  }
+  if (options.precision != Precision::Exact) {
+    throw UsageError("--path: is answered exactly, not with --precision double");
+  }
+  if (options.draws() || !options.csv.empty()) {
+    throw UsageError(
+        "--path: answers in JSON only, without --svg, --png, --vtk or --csv");
+  }
+}
+
+ViewPath walk(Session& session, const LookOptions& options, const Scene& scene,
+              const std::vector<Viewpoint>& path) {
+  Request request = session.with_grace();
+  request.threads = options.threads;
+  const PointViewIndex index(scene, request);
+  session.limit(request);
+  session.begin("path");
+  try {
+    return view_path(index, path, true, request);
+  } catch (const InvalidInput& refusal) {
+    throw InvalidInput(fmt::format("{}: {}", options.path, refusal.what()));
+  }
+}
+
+std::string told(const std::vector<int>& facets, const char* what) {
+  if (facets.empty()) return "";
+  return fmt::format("; {} {} {}", facets.size() == 1 ? "facet" : "facets",
+                     fmt::join(facets, ", "), what);
+}
+
+void print_path(const LookOptions& options, const ViewPath& path, const Json& answer) {
+  constexpr std::size_t kShown = 40;
+  std::cout << fmt::format("{}: {}, {} at {}{}\n", options.scene,
+                           counted(path.stretches.size(), "view", "views"),
+                           counted(answer["events"].size(), "event", "events"),
+                           counted(path.changes.size(), "position", "positions"),
+                           path.complete ? "" : ", INCOMPLETE");
+  for (std::size_t i = 0; i < std::min(kShown, path.changes.size()); ++i) {
+    const PathChange& change = path.changes[i];
+    std::vector<std::string> events;
+    for (const PathEvent& event : change.events) {
+      std::vector<std::string> generators;
+      for (const Generator& g : event.generators) {
+        constexpr const char* kNames[] = {"corner", "edge", "facet"};
+        generators.push_back(
+            fmt::format("{} {}", kNames[static_cast<int>(g.kind)], g.id));
+      }
+      events.push_back(
+          fmt::format("{} ({})", name(event.kind), fmt::join(generators, ", ")));
+    }
+    std::cout << fmt::format("  segment {} at {:.9g}: {}{}{}\n", change.segment, change.u,
+                             fmt::join(events, ", "), told(change.appears, "appear"),
+                             told(change.vanishes, "vanish"));
+  }
+  if (path.changes.size() > kShown) {
+    std::cout << fmt::format("  and at {} more positions (--json lists them)\n",
+                             path.changes.size() - kShown);
+  }
+  std::cout << fmt::format("  {:.3f} s\n", answer["seconds"].get<double>());
+}
+
+ExitStatus run_path(Session& session, const LookOptions& options) {
+  check_alone(options);
+  Outputs outputs(options);
+  outputs.protect(options.path);
+  const std::vector<Viewpoint> path =
+      session.read([&] { return path_question(JsonInput(options.path)); });
+  const Meter meter;
+  const Scene scene = read_scene(session, options.scene, options.format);
+  const ViewPath found = walk(session, options, scene, path);
+  Json answer =
+      answer_head("look", scene, found.complete, {session.seconds(), meter.predicates()});
+  answer["events"] = path_events_json(scene, found);
+  answer["views"] = path_views_json(scene, found, options.list);
+  outputs.write_answer(answer);
+  if (options.may_print()) print_path(options, found, answer);
+  return session.end(found.complete);
+}
+
 // ---- the command ----------------------------------------------------------------------
 
 ExitStatus run(Session& session, const LookOptions& options) {
+  if (!options.path.empty()) return run_path(session, options);
   // 1. The outputs and the questions, then the scene.
   Outputs outputs(options);
   PictureFiles files;
@@ -383,6 +471,12 @@ void add_view_options(CLI::App& command, LookOptions& options) {
   add_repeated(command, "--at", options.at,
                R"(JSON: {"views": [{"from": [x,y,z]} | {"direction": [x,y,z]}, ...]}, )"
                "numbers or strings \"p/q\"")
+      ->type_name("FILE");
+  command
+      .add_option("--path", options.path,
+                  R"(JSON: {"points": [[x,y,z], ...]} or {"directions": [...]}: all )"
+                  "events that the eye crosses on its way, and the view between each "
+                  "two; in JSON only, with neither pictures nor tables")
       ->type_name("FILE");
   command.add_flag("--list", options.list,
                    "add the map to the JSON answer: its vertices, edges with the regions "
@@ -476,7 +570,8 @@ Command add_look_command(CLI::App& app) {
       "  sightline look room.obj --from 3,1.5,2 --towards 0,1,0 --fov 70 --svg room.svg\n"
       "  sightline look house.ifc --direction 0,0,1 --direction 0,-1,0 --svg house.svg\n"
       "    (a plan, house0.svg, and an elevation from the south, house1.svg)\n"
-      "  sightline look city.obj --at eyes.json --csv seen.csv --threads 8");
+      "  sightline look city.obj --at eyes.json --csv seen.csv --threads 8\n"
+      "  sightline look room.obj --path walk.json --json -");
   return command_of(options, run);
 }
 

@@ -42,6 +42,15 @@ std::array<std::string, 3> three_texts(const std::string& text) {
           text.substr(second + 1)};
 }
 
+ViewQuestion question_at(Viewpoint::Kind kind, const JsonInput& where) {
+  const std::array<std::string, 3> asked = where.coordinates();
+  try {
+    return {viewpoint(kind, asked), asked, where.told()};
+  } catch (const InvalidInput& refusal) {
+    where.refuse(refusal.what());
+  }
+}
+
 }  // namespace
 
 TransversalsQuestion transversals_question(const JsonInput& file) {
@@ -80,18 +89,28 @@ std::vector<ViewQuestion> view_questions(const JsonInput& file) {
     if (from == view.has("direction")) {
       view.refuse(R"(expected either "from" or "direction")");
     }
-    const JsonInput where = view.at(from ? "from" : "direction");
-    const std::array<std::string, 3> asked = where.coordinates();
-    try {
-      const Viewpoint::Kind kind =
-          from ? Viewpoint::Kind::Eye : Viewpoint::Kind::Direction;
-      questions.push_back({viewpoint(kind, asked), asked, where.told()});
-    } catch (const InvalidInput& refusal) {
-      where.refuse(refusal.what());
-    }
+    questions.push_back(
+        question_at(from ? Viewpoint::Kind::Eye : Viewpoint::Kind::Direction,
+                    view.at(from ? "from" : "direction")));
   }
   if (questions.empty()) file.at("views").refuse("expected at least one view");
   return questions;
+}
+
+std::vector<Viewpoint> path_question(const JsonInput& file) {
+  const bool points = file.has("points");
+  if (points == file.has("directions")) {
+    file.refuse(R"(expected either "points" or "directions")");
+  }
+  const JsonInput list = file.at(points ? "points" : "directions");
+  std::vector<Viewpoint> path;
+  for (const JsonInput& item : list.items()) {
+    path.push_back(
+        question_at(points ? Viewpoint::Kind::Eye : Viewpoint::Kind::Direction, item)
+            .eye);
+  }
+  if (path.size() < 2) list.refuse("expected at least two");
+  return path;
 }
 
 ViewQuestion view_question(Viewpoint::Kind kind, const std::string& option,

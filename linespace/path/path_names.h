@@ -1,0 +1,34 @@
+// Comparing two views of a path, and naming what happens between them.
+
+#pragma once
+
+#include <vector>
+
+#include "linespace/path/path_candidates.h"
+#include "linespace/path_events.h"
+
+namespace sightline::internal {
+
+/// The labelled structures are equal; of views that are not general, those of their maps.
+[[nodiscard]] bool same_structure(const PathScene& scene, const PointView& x,
+                                  const PointView& y);
+
+/// Facets, with their sides, of which area is seen in x and not in y.
+[[nodiscard]] std::vector<int> seen_only_in(const PointView& x, const PointView& y);
+
+/// Events at an eye that is on them, seen from there: its accidents, but for those that
+/// the views before and after it have too.  What lies in the plane of a facet that is
+/// seen edge-on is a part of the facet's event.
+[[nodiscard]] std::vector<PathEvent> events_of(const Scene& scene, const PointView& at,
+                                               const PointView& before,
+                                               const PointView& after);
+
+/// The event that a candidate makes.
+[[nodiscard]] PathEvent event_of(const PathScene& scene, const Candidate& candidate);
+
+/// Of three lines in one point of the picture, two of which cross in the view before: the
+/// third crosses one of them in one of the two views.
+[[nodiscard]] bool is_seen(const Candidate& candidate, const PathScene& scene,
+                           const SeenElements& before, const SeenElements& after);
+
+}  // namespace sightline::internal
