@@ -27,8 +27,8 @@ struct LineCut {
   long double w0 = 0, w1 = 0;
 };
 
-[[nodiscard]] inline LineCut start_cut() { return {.kind = LineCut::Kind::Start}; }
-[[nodiscard]] inline LineCut finish_cut() {
+[[nodiscard]] inline LineCut line_start() { return {.kind = LineCut::Kind::Start}; }
+[[nodiscard]] inline LineCut line_finish() {
   return {.kind = LineCut::Kind::Finish, .at = 1};
 }
 

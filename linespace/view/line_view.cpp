@@ -106,7 +106,7 @@ std::vector<std::array<LineCut, 2>> LineViewer::hidden_parts(int line) {
   std::vector<std::array<LineCut, 2>> parts;
   if (eye_->end_on(line)) return parts;
   const LineCuts cuts(*eye_, line);
-  if (!cover(line, cuts)) return {{start_cut(), finish_cut()}};
+  if (!cover(line, cuts)) return {{line_start(), line_finish()}};
   const Scan scan = scan_covers(line, cuts);
   for (std::size_t i = 0; i < scan.hidden.size(); ++i) {
     if (scan.hidden[i][0] == 0 || scan.hidden[i][1] == 0) continue;
@@ -150,7 +150,7 @@ std::optional<LineViewer::Cover> LineViewer::own_side(int line, int face) const 
     if (!forward && (p != b || q != a)) continue;
     // A face is on the left of its own sides, seen from its front.
     const bool left = forward == (eye_->front(face) == Sign::Positive);
-    return Cover{face, start_cut(), finish_cut(), left, !left, false};
+    return Cover{face, line_start(), line_finish(), left, !left, false};
   }
   return std::nullopt;
 }
@@ -162,7 +162,7 @@ std::optional<LineViewer::Cover> LineViewer::overlap(int line, int face,
   const std::size_t n = corners.size();
 
   // On which sides of the line the face is seen.
-  Cover cover{face, start_cut(), finish_cut(), false, false, false};
+  Cover cover{face, line_start(), line_finish(), false, false, false};
   for (const int c : corners) {
     const Sign s = eye_->orient(a, b, c);
     cover.left |= s == Sign::Positive;
@@ -250,7 +250,7 @@ SeenBeside LineViewer::nearest(std::span<const int> faces, int line, bool left) 
 
 LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
   Scan scan;
-  scan.at = {start_cut(), finish_cut()};
+  scan.at = {line_start(), line_finish()};
   for (const Cover& c : covers_) {
     if (c.from.kind != LineCut::Kind::Start) scan.at.push_back(c.from);
     if (c.to.kind != LineCut::Kind::Finish) scan.at.push_back(c.to);

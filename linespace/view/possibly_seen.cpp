@@ -39,7 +39,7 @@ class Culler {
   void draw_face(int face);
   void draw_convex(std::span<const std::array<int, 2>> sides, std::span<const int> faces,
                    const Box& around);
-  void draw_object(int object);
+  [[nodiscard]] bool draw_object(int object);
   [[nodiscard]] Eigen::Vector3d local(const Side& side, int point) const {
     return side.axes * (eye_->scene().scene().point(point) - origin_);
   }
@@ -56,7 +56,9 @@ class Culler {
   // Half-spaces that hold all that is seen through the window: normal . (x - point) >= 0.
   std::vector<Eigen::Vector3d> window_;
   std::vector<Point> window_points_;  // on their planes
-  std::vector<std::uint8_t> drawn_objects_, drawn_facets_;
+  enum class Drawn : std::uint8_t { Not, AsOne, ByFaces };
+  std::vector<Drawn> drawn_objects_;
+  std::vector<std::uint8_t> drawn_facets_;
 };
 
 int raster_size(std::size_t faces) {
@@ -92,7 +94,7 @@ Culler::Culler(const EyeSpace& eye) : eye_(&eye) {
   size_ = std::max({origin_.cwiseAbs().maxCoeff(), box[0].cwiseAbs().maxCoeff(),
                     box[1].cwiseAbs().maxCoeff()});
   rasters_.assign(sides_.size(), DepthRaster(raster_size(scene.faces().size())));
-  drawn_objects_.assign(scene.objects().size(), 0);
+  drawn_objects_.assign(scene.objects().size(), Drawn::Not);
   drawn_facets_.assign(scene.facets().size(), 0);
   find_window();
 }
@@ -243,17 +245,23 @@ void Culler::draw_convex(std::span<const std::array<int, 2>> sides,
   }
 }
 
-void Culler::draw_object(int object) {
+// False, and nothing drawn, where its outline is not one of edges: an eye in the fold of
+// a facet that rounding bends sees the fold as a part of it.
+bool Culler::draw_object(int object) {
   const ViewScene& scene = eye_->scene();
   std::vector<std::array<int, 2>> outline;
   std::vector<int> front;
   for (const int f : scene.scene().objects()[object].faces) {
     if (eye_->front(f) == Sign::Positive) front.push_back(f);
+    const int first =
+        scene.scene().facets()[scene.scene().faces()[f].facet].faces.front();
+    if ((eye_->front(f) == Sign::Positive) != (eye_->front(first) == Sign::Positive))
+      return false;
   }
-  if (front.empty()) return;
+  if (front.empty()) return false;
   for (const int e : scene.edges_of(object)) {
     const Edge& edge = scene.scene().edges()[e];
-    if (edge.sides.size() != 2) return;
+    if (edge.sides.size() != 2) return false;
     const auto [f, h] = std::pair(edge.sides[0], edge.sides[1]);
     const bool first = eye_->front(f.face) == Sign::Positive;
     if (first == (eye_->front(h.face) == Sign::Positive)) continue;
@@ -261,6 +269,7 @@ void Culler::draw_object(int object) {
     outline.push_back({edge.points[forward ? 0 : 1], edge.points[forward ? 1 : 0]});
   }
   draw_convex(outline, front, scene.silhouettes().object_box(object));
+  return true;
 }
 
 void Culler::draw_face(int face) {
@@ -269,8 +278,10 @@ void Culler::draw_face(int face) {
   if (front == Sign::Zero) return;
   const Face& f = scene.scene().faces()[face];
   if (scene.silhouettes().convex_solid(f.object) && front == Sign::Positive) {
-    if (drawn_objects_[f.object]++ == 0) draw_object(f.object);
-    return;
+    Drawn& drawn = drawn_objects_[f.object];
+    if (drawn == Drawn::Not)
+      drawn = draw_object(f.object) ? Drawn::AsOne : Drawn::ByFaces;
+    if (drawn == Drawn::AsOne) return;
   }
   std::vector<std::array<int, 2>> sides;
   const auto turned = [&](int p, int q) {

@@ -37,7 +37,7 @@ std::string pair_text(const PlanePoint& p) {
   return fmt::format("{:.7g} {:.7g}", p.x(), p.y());
 }
 
-std::string style_sheet(std::size_t edges) {
+std::string style_sheet(std::size_t edges, bool further) {
   std::string css =
       "  .patch { stroke: none; }\n  line { stroke-linecap: round; }\n"
       "  circle { fill: #16181f; }\n";
@@ -48,6 +48,7 @@ std::string style_sheet(std::size_t edges) {
     css += fmt::format("  .{} {{ stroke: {}; stroke-width: {:g}; }}\n", name(kind),
                        hex(style.colour), style.width);
   }
+  if (!further) return css;
   for (const auto kind : {FurtherLine::Kind::Seam, FurtherLine::Kind::Hidden}) {
     const LineStyle style = style_of(kind, edges);
     css += fmt::format(
@@ -135,7 +136,8 @@ std::string view_svg(const Scene& scene, const PointView& view,
       "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0:.7g} {1:.7g}\" "
       "width=\"{0:.7g}\" height=\"{1:.7g}\">\n<style>\n{2}</style>\n"
       "<rect class=\"paper\" width=\"{0:.7g}\" height=\"{1:.7g}\" fill=\"{3}\"/>\n",
-      sheet.size().x(), sheet.size().y(), style_sheet(drawing.edges.size()), hex(kPaper));
+      sheet.size().x(), sheet.size().y(),
+      style_sheet(drawing.edges.size(), !drawing.further.empty()), hex(kPaper));
   text += "<g id=\"patches\">\n";
   for (const DrawnRegion& drawn : drawing.regions) {
     text += patch_element(scene, view.regions[drawn.region], drawn, sheet);
