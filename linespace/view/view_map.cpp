@@ -143,9 +143,11 @@ std::vector<MapMaker::Run> MapMaker::runs(bool seams) const {
   for (int e = 0; e < static_cast<int>(seam_.size()); ++e) {
     if ((seam_[e] != 0) != seams || done[e] != 0) continue;
     int first = 2 * e;
-    for (int back; (back = straight_on(first ^ 1)) >= 0 && done[back / 2] == 0;) {
+    // Signs of doubles may lead round in a circle.
+    for (std::size_t steps = 0; steps < seam_.size(); ++steps) {
+      const int back = straight_on(first ^ 1);
+      if (back < 0 || done[back / 2] != 0) break;
       first = back ^ 1;
-      if (first / 2 == e) break;  // round in a circle: only by signs of doubles
     }
     Run run;
     for (int h = first; h >= 0 && done[h / 2] == 0; h = straight_on(h)) {
@@ -357,15 +359,15 @@ void MapMaker::add_boundaries() {
   for (int h = 0; h < static_cast<int>(edge_of_.size()); ++h) {
     if (edge_of_[h] < 0 || done[edge_of_[h]] != 0) continue;
     std::vector<int> walk;
-    for (int x = h;
-         walk.empty() || done[edge_of_[x]] == 0 || edge_of_[x] == walk.back();) {
+    int x = h;
+    do {
       if (done[edge_of_[x]] == 0) {
         done[edge_of_[x]] = 1;
         walk.push_back(edge_of_[x]);
       }
       x = graph_->next[x];
       while (seam_[x / 2] != 0) x = graph_->next[x ^ 1];
-    }
+    } while (x != h);
     const int region = map_.region_of[graph_->region[h]];
     if (region >= 0) map_.regions[region].boundary.push_back(std::move(walk));
   }

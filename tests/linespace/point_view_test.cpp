@@ -11,6 +11,7 @@
 #include <set>
 #include <vector>
 
+#include "linespace/mesh_io.h"
 #include "linespace/view/line_view.h"
 #include "linespace/view/possibly_seen.h"
 #include "linespace/view/view_graph.h"
@@ -349,6 +350,11 @@ TEST(PointView, DoublePrecisionAnswers) {
       EXPECT_NO_THROW((void)index.view(testing::viewpoint_of(eye), request)) << s.name;
     }
   }
+  // Once signs of doubles led round in a circle here.
+  const Scene room(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj"));
+  const PointViewIndex index(room);
+  const Viewpoint eye = viewpoint(Viewpoint::Kind::Eye, {"8/3", "1", "7/2"});
+  EXPECT_FALSE(index.view(eye, request).facets.empty());
 }
 
 }  // namespace
