@@ -299,7 +299,13 @@ MapVertex MapMaker::vertex(int point, std::span<const int> leaving,
   MapVertex v{};
   v.kind = MapVertexKind::Accident;
   v.corner = -1;
-  v.at = eye_->drawn_at(graph_->points[point].vector());
+  const PicturePoint& seen_at = graph_->points[point];
+  if (seen_at.error() <= 0x1p-52L) {
+    v.at = eye_->drawn_at(seen_at.vector());
+  } else {
+    const ExactPoint& w = seen_at.exact();
+    v.at = eye_->drawn_at({long_double(w[0]), long_double(w[1]), long_double(w[2])});
+  }
   const auto line = [&](int h) { return graph_->edges[h / 2].line; };
   // The edges that end here, by the point of space that they pass.
   std::vector<std::vector<int>> meeting;

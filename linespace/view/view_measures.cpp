@@ -79,6 +79,15 @@ class Measurer {
     return sum;
   }
 
+  /// Of a boundary so small that the sign of its sum is in doubt.
+  [[nodiscard]] long double accurate_sum(std::span<const int> half_edges) const {
+    const ExactPoint& r = graph_->points[graph_->origin(half_edges.front())].exact();
+    long double sum = 0;
+    for (const int h : half_edges)
+      sum += accurate_angle(r, graph_->origin(h), graph_->origin(h ^ 1));
+    return sum;
+  }
+
   // Of the solid angle on the left of a half-edge, with the eye.  The arc has the normal
   // N in the picture of true directions u = (P - E) / |P - E|.  A step s of the eye moves
   // the direction of a fixed point at distance r by -s / r across the arc; so the area
@@ -227,11 +236,11 @@ ViewMeasures measure(const EyeSpace& eye, const ViewGraph& graph,
     }
     // The boundary of what lies around all else runs clockwise, seen from near it.
     const auto& edges = regions[r].half_edges;
-    const auto value =
-        static_cast<double>(edges.empty() || measurer.within_half_sphere(edges)
-                                ? regions[r].value
-                                : measurer.angle_around(edges));
-    measures.regions[r] = value > 0 ? value : value + kSphere;
+    const bool small = edges.empty() || measurer.within_half_sphere(edges);
+    long double value = small ? regions[r].value : measurer.angle_around(edges);
+    if (small && !edges.empty() && std::abs(value) < 1e-12L)
+      value = measurer.accurate_sum(edges);
+    measures.regions[r] = static_cast<double>(value > 0 ? value : value + kSphere);
   }
   return measures;
 }
