@@ -206,7 +206,7 @@ Point MapMaker::place(int line, int point) const {
   // near.
   const long double change =
       (at.error() + 0x1p-60L) * (std::sqrt(dot(u, u)) + std::sqrt(dot(v, v)));
-  if (!(change < 0x1p-52L * (s + t))) return rounded(exact_place(line, point));
+  if (!(change < 0x1p-46L * (s + t))) return rounded(exact_place(line, point));
   const auto share = static_cast<double>(s / (s + t));
   const Point from = eye_->scene().position(a), to = eye_->scene().position(b);
   return from + share * (to - from);
