@@ -26,8 +26,9 @@ namespace sightline::internal {
 /// The event that a candidate makes.
 [[nodiscard]] PathEvent event_of(const PathScene& scene, const Candidate& candidate);
 
-/// Of three lines in one point of the picture, two of which cross in the view before: the
-/// third crosses one of them in one of the two views.
+/// For a candidate of three lines that come into one point of the picture, where two of
+/// them are seen to cross in the view before: whether the third is seen to cross one of
+/// these two in the view before or in the view after.
 [[nodiscard]] bool is_seen(const Candidate& candidate, const PathScene& scene,
                            const SeenElements& before, const SeenElements& after);
 

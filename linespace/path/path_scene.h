@@ -34,8 +34,8 @@ class PathScene {
   [[nodiscard]] std::span<const PathLine> lines() const { return lines_; }
   /// The lines that have this name, ascending; all but sides of bent facets have one.
   [[nodiscard]] std::span<const int> lines_of(const MapLine& name) const;
-  /// Of a whole line: the ratios between which it runs, 0 and 1 at the ends of the line
-  /// whose number it has.
+  /// Where a whole line begins and ends, as ratios on the line whose number it has: 0 and
+  /// 1 are that line's own ends.
   [[nodiscard]] std::array<double, 2> range(int whole_line) const {
     return ranges_[whole_line];
   }

@@ -23,8 +23,8 @@ struct SeenInLine {
   double depth;  ///< how much farther it is from the eye than the given point
 };
 
-/// Of a line that is known to pass x in the picture.  nullopt where rounding does not
-/// allow to say.
+/// Where a line, known to pass x in the picture, is seen there.  nullopt where rounding
+/// does not allow to say.
 [[nodiscard]] std::optional<SeenInLine> seen_in_line(const RoundedEye& eye,
                                                      const PathLine& line, const Point& x,
                                                      double size);

@@ -34,17 +34,17 @@ class SeenElements {
   // Whether, as long as the structure stays and from an eye up to its end, the view shows
   // something just there.  True in doubt.
 
-  /// Of a point that is in line with a nearer whole line.
+  /// A scene point that is in line with a nearer whole line: may it be seen there?
   [[nodiscard]] bool may_show_point(const RoundedEye& eye, int line, int point) const;
-  /// Of something at y that is in line with a nearer point.
+  /// Something at y that is in line with a nearer scene point: may it be seen there?
   [[nodiscard]] bool may_show_behind_point(int point, const Point& y) const;
-  /// Of something at y behind two lines that cross.
+  /// Something at y behind two lines that are seen to cross: may it be seen there?
   [[nodiscard]] bool may_show_behind_pair(const LinePair& pair, const Point& y) const;
-  /// A facet, or an edge of it.
+  /// The facet is seen, or an edge of it is.
   [[nodiscard]] bool shows_facet(int facet) const;
 
  private:
-  // Of a region: the plane of what is seen there.
+  // The plane of the facet that is seen in a region.
   struct Plane {
     Eigen::Vector3d normal;  // towards the eye, of length 1
     Point at;

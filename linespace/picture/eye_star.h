@@ -20,7 +20,7 @@ class EyeStar {
   explicit EyeStar(const EyeSpace& eye);
 
   [[nodiscard]] EyePlace place() const { return place_; }
-  /// As in PointView::place_ids.
+  /// What the eye lies on or in, as PointView::place_ids tells it.
   [[nodiscard]] const std::vector<int>& ids() const { return ids_; }
   /// Faces on which the eye lies, their boundary included, ascending.
   [[nodiscard]] std::span<const int> faces() const { return faces_; }

@@ -17,6 +17,13 @@ using LongEigen = Eigen::Matrix<long double, 3, 1>;
 
 LongEigen eigen(const LongVector& v) { return {v[0], v[1], v[2]}; }
 
+// What a sum of long doubles may be off, relatively, before an area is summed up in
+// rational numbers: a hundredth of the 1e-12 that are promised.
+constexpr long double kAreaError = 1e-14L;
+// Steradians: each edge adds an error of some 2^-60, so that the sum over a million edges
+// has a certain sign if it is larger.
+constexpr long double kCertainSign = 1e-12L;
+
 // Enough digits for eyes as near a face as doubles and fractions of doubles come.
 using LongFloat = boost::multiprecision::number<boost::multiprecision::gmp_float<80>>;
 
@@ -110,7 +117,7 @@ class Measurer {
   [[nodiscard]] double value(const Sum& sum) const {
     if (!eye_->is_direction()) return static_cast<double>(sum.value);
     long double area = sum.value;
-    if (!(sum.error < 1e-14L * std::abs(area))) area = exact_area(sum);
+    if (!(sum.error < kAreaError * std::abs(area))) area = exact_area(sum);
     return static_cast<double>(area * eye_->area_factor());
   }
 
@@ -238,7 +245,7 @@ ViewMeasures measure(const EyeSpace& eye, const ViewGraph& graph,
     const auto& edges = regions[r].half_edges;
     const bool small = edges.empty() || measurer.within_half_sphere(edges);
     long double value = small ? regions[r].value : measurer.angle_around(edges);
-    if (small && !edges.empty() && std::abs(value) < 1e-12L)
+    if (small && !edges.empty() && std::abs(value) < kCertainSign)
       value = measurer.accurate_sum(edges);
     measures.regions[r] = static_cast<double>(value > 0 ? value : value + kSphere);
   }

@@ -5,22 +5,22 @@
 #include <random>
 #include <regex>
 
+#include "linespace/checksum.h"
 #include "linespace/mesh_io.h"
 #include "skeleton/build.h"
 #include "tests/support/shell.h"
-#include "linespace/checksum.h"
 #include "viewers/skeleton_file.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using sightline::Checksum;
 using sightline::InvalidInput;
 using sightline::PolygonSoup;
 using sightline::Scene;
 using sightline::test::file_contents;
 using sightline::viewers::check_fits;
-using sightline::Checksum;
 using sightline::viewers::fingerprint;
 using sightline::viewers::read_skeleton_json;
 using sightline::viewers::StoredSkeleton;

@@ -7,9 +7,9 @@
 #include <optional>
 #include <string_view>
 
+#include "linespace/checksum.h"
 #include "linespace/files/input_file.h"
 #include "linespace/work/stage.h"
-#include "linespace/checksum.h"
 #include "viewers/drawing.h"
 #include "viewers/far_ends.h"
 #include "viewers/files/json_parse.h"
