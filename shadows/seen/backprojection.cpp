@@ -16,13 +16,6 @@ namespace {
 
 ExactPosition position(const Point& p) { return {p, {}, {true, true, true}}; }
 
-ExactPoint exact(const ExactPosition& at) {
-  ExactPoint p;
-  for (int i = 0; i < 3; ++i)
-    p[i] = at.is_double[i] ? Rational(at.nearest[i]) : Rational(at.exact[i]);
-  return p;
-}
-
 LongEigen unit(const ExactPoint& v) {
   Rational size = 0;
   for (const Rational& x : v) size = std::max(size, Rational(abs(x)));
@@ -65,7 +58,7 @@ Backprojection BackprojectionIndex::from(const ShadowPoint& point,
   std::optional<Horizon> horizon;
   LongEigen normal = LongEigen::Zero();
   if (point.normal) {
-    const ExactPoint n = exact(*point.normal);
+    const ExactPoint n = exact_point(*point.normal);
     normal = unit(n);
     horizon.emplace(eye.eye(), n);
   }

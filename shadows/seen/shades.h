@@ -36,7 +36,7 @@ struct Blocker {
     int point, side;
   };
   static constexpr int kLeaving = -1, kEntering = -2;
-  std::vector<Corner> part;
+  std::vector<Corner> part = {};
   std::array<int, 2> cut_ends{kLeaving, kEntering};  ///< or corners
   std::array<ExactPoint, 2> cut{};
 };
