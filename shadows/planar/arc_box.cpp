@@ -1,0 +1,44 @@
+#include "shadows/planar/arc_box.h"
+
+#include <algorithm>
+
+namespace sightline::internal {
+
+// The polar form c0 + c1 (u + v) / 2 + c2 u v at (from, from), (from, to) and (to, to).
+std::array<std::array<BallNumber, 3>, 3> control_points(const PlaneSupport& support,
+                                                        const BallNumber& from,
+                                                        const BallNumber& to) {
+  const BallNumber half{0.5, 0, 0};
+  std::array<std::array<BallNumber, 3>, 3> points;
+  for (int i = 0; i < 3; ++i) {
+    const std::array<BallNumber, 3>& c = support.balls.curve[i];
+    if (support.straight) {
+      points[0][i] = c[0] + c[1] * from;
+      points[1][i] = c[0] + c[1] * to;
+      points[2][i] = points[1][i];
+      continue;
+    }
+    points[0][i] = c[0] + from * (c[1] + from * c[2]);
+    points[1][i] = c[0] + half * c[1] * (from + to) + c[2] * (from * to);
+    points[2][i] = c[0] + to * (c[1] + to * c[2]);
+  }
+  return points;
+}
+
+// With positive weights a curve lies in the convex hull of its control points.
+std::optional<PointRange> box_of(const PlaneSupport& support, const Range& s) {
+  const auto points = control_points(support, {s.lo, 0, 0}, {s.hi, 0, 0});
+  std::optional<PointRange> box;
+  for (int i = 0; i < (support.straight ? 2 : 3); ++i) {
+    if (sign_of(points[i][2]) != Sign::Positive) return std::nullopt;
+    const std::optional<Range> x = range_of_quotient(points[i][0], points[i][2]);
+    const std::optional<Range> y = range_of_quotient(points[i][1], points[i][2]);
+    if (!x || !y) return std::nullopt;
+    if (!box) box = PointRange{*x, *y};
+    box->x = {std::min(box->x.lo, x->lo), std::max(box->x.hi, x->hi)};
+    box->y = {std::min(box->y.lo, y->lo), std::max(box->y.hi, y->hi)};
+  }
+  return box;
+}
+
+}  // namespace sightline::internal

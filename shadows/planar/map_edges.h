@@ -1,0 +1,15 @@
+// From arcs and their crossings to vertices and edges.
+
+#pragma once
+
+#include "shadows/planar/crossings.h"
+#include "shadows/planar/map_data.h"
+
+namespace sightline::internal {
+
+/// Everything but faces.
+[[nodiscard]] MapData vertices_and_edges(std::span<const PlaneCurve> curves,
+                                         const PlaneOutline& outline,
+                                         CrossingCounts& counts);
+
+}  // namespace sightline::internal
