@@ -41,20 +41,27 @@ void add_rectangle(PolygonSoup& soup, const std::string& name, double x0, double
   add_polygon(soup, name, c);
 }
 
-/// A scene with one convex source and a floor.
+/// A scene with a source of one facet, or of one plane, and a receiver.  The window is
+/// convex and holds the source; without one the source is convex itself.
 struct Lit {
   explicit Lit(PolygonSoup soup, const std::string& light = "light",
-               const std::string& floor = "floor")
+               const std::string& floor = "floor", const std::vector<Point>& window = {})
       : scene(std::move(soup)), space(scene), index(scene) {
     request.source_faces = scene.faces_named(light);
     events = light_events(space, request);
     const int face = request.source_faces[0];
-    for (const int p : scene.face_points(face)) source.push_back(scene.point(p));
-    source_facet = scene.faces()[face].facet;
+    if (window.empty()) {
+      for (const int p : scene.face_points(face)) source.push_back(scene.point(p));
+    } else {
+      source = window;
+    }
+    for (const int f : request.source_faces) {
+      source_facets.push_back(scene.faces()[f].facet);
+    }
     floor_facet = scene.faces()[scene.faces_named(floor)[0]].facet;
   }
   [[nodiscard]] std::string structure(const Point& p) const {
-    return testing::seen_structure(index, source, source_facet, p);
+    return testing::seen_structure(index, scene, source, source_facets, p);
   }
   [[nodiscard]] std::map<LightEventKind, int> pieces_on_floor() const {
     std::map<LightEventKind, int> out;
@@ -72,7 +79,8 @@ struct Lit {
   LightEventsRequest request;
   LightEvents events;
   std::vector<Point> source;
-  int source_facet, floor_facet;
+  std::vector<int> source_facets;
+  int floor_facet;
 };
 
 /// Along the segment the structure changes only where some trace is crossed.  Adds to
@@ -225,6 +233,75 @@ TEST(LightEvents, WhereverTheLightLies) {
     if (i == 0) first = pieces;
     EXPECT_EQ(pieces, first) << i;
     EXPECT_GT(expect_complete_along(lit, 8, 70 + i, -4, -4, 4, 4), 20) << i;
+  }
+}
+
+std::vector<Point> wide_window(double z) {
+  return {{-3, 3, z}, {3, 3, z}, {3, -3, z}, {-3, -3, z}};
+}
+
+TEST(LightEvents, LShapedHoledAndJoinedLights) {
+  std::vector<PolygonSoup> soups(4);
+  add_polygon(soups[0], "light",
+              {{-1, -1, 4}, {-1, 1, 4}, {0, 1, 4}, {0, 0, 4}, {1, 0, 4}, {1, -1, 4}});
+  // The same as two polygons of two objects that touch, with a T-junction.
+  add_rectangle(soups[1], "light", -1, -1, 1, 0, 4, false);
+  add_rectangle(soups[1], "light2", -1, 0, 0, 1, 4, false);
+  // Overlapping.
+  add_rectangle(soups[2], "light", -1, -1, 1, 0, 4, false);
+  add_rectangle(soups[2], "light2", -1, -0.5, 0, 1, 4, false);
+  // With a hole: a frame of four.
+  add_rectangle(soups[3], "light", -1, -1, 1, -0.5, 4, false);
+  add_rectangle(soups[3], "light2", -1, 0.25, 1, 1, 4, false);
+  add_rectangle(soups[3], "light3", -1, -0.5, -0.5, 0.25, 4, false);
+  add_rectangle(soups[3], "light4", 0.5, -0.5, 1, 0.25, 4, false);
+  std::map<LightEventKind, int> first;
+  for (std::size_t i = 0; i < soups.size(); ++i) {
+    const std::size_t lights = soups[i].polygons.size();
+    add_blockers(soups[i]);
+    const Lit lit(soups[i], "#0-" + std::to_string(lights - 1), "floor", wide_window(4));
+    const auto pieces = lit.pieces_on_floor();
+    if (i == 0) first = pieces;
+    if (i < 3) {
+      EXPECT_EQ(pieces, first) << i;
+    }
+    EXPECT_EQ(lit.events.patches[0].sides.size(), i < 3 ? 6U : 8U);
+    EXPECT_GT(expect_complete_along(lit, 8, 170 + i, -4, -4, 4, 4), 20) << i;
+  }
+}
+
+TEST(LightEvents, BlockersThatTouchAndCross) {
+  for (int kind = 0; kind < 6; ++kind) {
+    PolygonSoup soup;
+    add_rectangle(soup, "light", -1, -1, 1, 1, 4, false);
+    switch (kind) {
+      case 0:  // stacked, turned
+        testing::add_box(soup, "a", {-1, -1, 0}, {1, 1, 1});
+        add_turned_box(soup, "b", {0, 0, 1.5}, {1.75, 1.5, 1}, 0.5);
+        break;
+      case 1:  // two sheets that cross
+        add_polygon(soup, "a", {{-1, -0.5, 1.5}, {1, -0.25, 1.5}, {0.75, 0.5, 2.5}, {-1, 0.75, 2.5}});
+        add_polygon(soup, "b", {{-1, -0.5, 2.5}, {1, 0.75, 1.25}, {-0.5, 1, 1.5}});
+        break;
+      case 2:  // a box that hangs from the light
+        testing::add_box(soup, "a", {-0.5, -0.5, 3}, {0.25, 0.5, 4});
+        add_polygon(soup, "t", {{-0.5, -0.25, 2}, {0.375, -0.5, 2.25}, {0.5, 0.5, 1.75}});
+        break;
+      case 3:  // a box through the light
+        testing::add_box(soup, "a", {0.5, -0.5, 3}, {1.5, 0.25, 5});
+        add_polygon(soup, "t", {{-0.5, -0.25, 2}, {0.375, -0.5, 2.25}, {0.5, 0.5, 1.75}});
+        break;
+      case 4:  // a sheet through the light, another across it
+        add_polygon(soup, "a", {{-0.75, -0.5, 3}, {1, 0.25, 3}, {1, 0.25, 5}, {-0.75, -0.5, 5}});
+        add_polygon(soup, "b", {{-0.75, 0.75, 2.5}, {1, -0.5, 3}, {1, 0.25, 2}});
+        break;
+      default:  // a box sunk in the floor, and one in the other
+        testing::add_box(soup, "a", {-1, -1, -1}, {0.5, 0.5, 1});
+        add_turned_box(soup, "b", {0.5, 0.5, 1}, {1.25, 1, 1.5}, 0.4);
+    }
+    add_rectangle(soup, "floor", -8, -8, 8, 8, 0, true);
+    const Lit lit(soup);
+    EXPECT_GT(expect_complete_along(lit, 12, 270 + kind, -4, -4, 4, 4), 20) << kind;
   }
 }
 

@@ -84,6 +84,19 @@ Eigen::Vector4d plane_of_facet(const Scene& scene, int facet) {
   return plane;
 }
 
+// The first edge of the scene on the line of this one.
+int first_in_line(const Scene& scene, int edge) {
+  const auto& [p, q] = scene.edges()[edge].points;
+  for (int e = 0; e < edge; ++e) {
+    const auto& [a, b] = scene.edges()[e].points;
+    if (collinear(scene.point(p), scene.point(q), scene.point(a)) &&
+        collinear(scene.point(p), scene.point(q), scene.point(b))) {
+      return e;
+    }
+  }
+  return edge;
+}
+
 }  // namespace
 
 std::vector<double> foot_crossings(const Scene& scene, int facet, const Point& p,
@@ -147,12 +160,13 @@ std::vector<double> light_crossings(const internal::LightSpace& space,
   return out;
 }
 
-std::string seen_structure(const PointViewIndex& index, const std::vector<Point>& source,
-                           int source_facet, const Point& eye) {
+std::string seen_structure(const PointViewIndex& index, const Scene& scene,
+                           const std::vector<Point>& source,
+                           const std::vector<int>& facets, const Point& eye) {
   const PointView view = index.view_through(eye_at(eye), source);
   const auto name = [&](int half_edge) -> std::string {
     const MapEdge& e = view.edges[half_edge / 2];
-    if (e.line.edge >= 0) return "e" + std::to_string(e.line.edge);
+    if (e.line.edge >= 0) return "e" + std::to_string(first_in_line(scene, e.line.edge));
     if (e.line.facets[0] >= 0) {
       return "x" + std::to_string(e.line.facets[0]) + "," +
              std::to_string(e.line.facets[1]);
@@ -173,7 +187,10 @@ std::string seen_structure(const PointViewIndex& index, const std::vector<Point>
   };
   std::vector<std::string> cycles;
   for (const MapRegion& region : view.regions) {
-    if (std::ranges::find(region.facets, source_facet) == region.facets.end()) continue;
+    const bool lit = std::ranges::any_of(facets, [&](int f) {
+      return std::ranges::find(region.facets, f) != region.facets.end();
+    });
+    if (!lit) continue;
     for (const std::vector<int>& walk : region.boundary) {
       std::vector<std::string> names;
       for (const int h : walk) {

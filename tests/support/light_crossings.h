@@ -23,10 +23,12 @@ namespace sightline::testing {
 [[nodiscard]] std::vector<double> foot_crossings(const Scene& scene, int facet,
                                                  const Point& p, const Point& q);
 
-/// The boundaries of what the eye sees of the polygon, as text: for each the cyclic list
-/// of what its sides lie on.
-[[nodiscard]] std::string seen_structure(const PointViewIndex& index,
-                                         const std::vector<Point>& source,
-                                         int source_facet, const Point& eye);
+/// The boundaries of what the eye sees of some facets, within a convex window that holds
+/// them, as text: for each the cyclic list of what its sides lie on.  Edges on one line
+/// have one name.
+[[nodiscard]] std::string seen_structure(const PointViewIndex& index, const Scene& scene,
+                                         const std::vector<Point>& window,
+                                         const std::vector<int>& facets,
+                                         const Point& eye);
 
 }  // namespace sightline::testing
