@@ -80,6 +80,14 @@ const std::vector<ScannedPiece>& FamilyScan::scan(const LineFamily& family,
   return pieces_;
 }
 
+bool FamilyScan::reaches_freely(const FamilyLine& line,
+                                std::span<const FamilyContact> contacts,
+                                std::span<const int> faces) {
+  if (!reaches_source(line, contacts, -1)) return false;
+  candidates_.assign(faces.begin(), faces.end());
+  return first_met(line, contacts).has_value();
+}
+
 void FamilyScan::sort_cuts(const LineFamily& family) {
   std::stable_sort(cuts_.begin(), cuts_.end(),
                    [&](const FamilyCut& a, const FamilyCut& b) {

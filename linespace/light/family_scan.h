@@ -51,6 +51,11 @@ class FamilyScan {
   const std::vector<ScannedPiece>& scan(const LineFamily& family,
                                         std::span<const FamilyContact> contacts,
                                         int farthest, std::span<const int> faces);
+  /// Of one line of the family, the same for all: whether it reaches the source past all
+  /// contacts, and no face's inside is in the way.
+  [[nodiscard]] bool reaches_freely(const FamilyLine& line,
+                                    std::span<const FamilyContact> contacts,
+                                    std::span<const int> faces);
   /// Of the last scan.
   [[nodiscard]] std::span<const ScannedPiece> pieces() const { return pieces_; }
 

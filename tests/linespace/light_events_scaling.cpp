@@ -21,9 +21,7 @@ double seconds() {
   return std::chrono::duration<double>(steady_clock::now().time_since_epoch()).count();
 }
 
-double processor_seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-}
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 }  // namespace
 
@@ -68,10 +66,12 @@ int main(int argc, char** argv) {
   for (const internal::LightTrace& t : events.traces) {
     ++traces[static_cast<int>(t.kind)];
     pieces[static_cast<int>(t.kind)] += t.pieces.size();
-    for (const auto& p : t.pieces) on_ground += std::ranges::binary_search(ground, p.face);
+    for (const auto& p : t.pieces)
+      on_ground += std::ranges::binary_search(ground, p.face);
   }
   std::printf(
-      "%s %zu polygons: traces face %zu EE %zu EV %zu EEE %zu, pieces %zu %zu %zu %zu, %zu "
+      "%s %zu polygons: traces face %zu EE %zu EV %zu EEE %zu, pieces %zu %zu %zu %zu, "
+      "%zu "
       "on the ground; %zu families; space %.2f s, events %.2f s, processor %.2f s\n",
       kind.c_str(), soup.polygons.size(), traces[0], traces[1], traces[2], traces[3],
       pieces[0], pieces[1], pieces[2], pieces[3], on_ground, events.families,

@@ -134,11 +134,9 @@ PolygonSoup plate_scene() {
 
 TEST(LightEvents, PlateUnderASquareLight) {
   const Lit lit(plate_scene());
-  for (const auto& [kind, count] : lit.pieces_on_floor()) {
-    std::printf("kind %d: %d pieces\n", static_cast<int>(kind), count);
-  }
-  std::printf("%zu traces, %zu families\n", lit.events.traces.size(),
-              lit.events.families);
+  // Each corner of one over each side of the other; all in line with parallel sides.
+  EXPECT_EQ(lit.events.traces.size(), 32U);
+  EXPECT_EQ(lit.pieces_on_floor(), (std::map{std::pair(LightEventKind::EE, 32)}));
   EXPECT_GT(expect_complete_along(lit, 20, 1, -4, -4, 4, 4), 20);
 }
 
@@ -280,7 +278,9 @@ TEST(LightEvents, BlockersThatTouchAndCross) {
         add_turned_box(soup, "b", {0, 0, 1.5}, {1.75, 1.5, 1}, 0.5);
         break;
       case 1:  // two sheets that cross
-        add_polygon(soup, "a", {{-1, -0.5, 1.5}, {1, -0.25, 1.5}, {0.75, 0.5, 2.5}, {-1, 0.75, 2.5}});
+        add_polygon(
+            soup, "a",
+            {{-1, -0.5, 1.5}, {1, -0.25, 1.5}, {0.75, 0.5, 2.5}, {-1, 0.75, 2.5}});
         add_polygon(soup, "b", {{-1, -0.5, 2.5}, {1, 0.75, 1.25}, {-0.5, 1, 1.5}});
         break;
       case 2:  // a box that hangs from the light
@@ -292,7 +292,8 @@ TEST(LightEvents, BlockersThatTouchAndCross) {
         add_polygon(soup, "t", {{-0.5, -0.25, 2}, {0.375, -0.5, 2.25}, {0.5, 0.5, 1.75}});
         break;
       case 4:  // a sheet through the light, another across it
-        add_polygon(soup, "a", {{-0.75, -0.5, 3}, {1, 0.25, 3}, {1, 0.25, 5}, {-0.75, -0.5, 5}});
+        add_polygon(soup, "a",
+                    {{-0.75, -0.5, 3}, {1, 0.25, 3}, {1, 0.25, 5}, {-0.75, -0.5, 5}});
         add_polygon(soup, "b", {{-0.75, 0.75, 2.5}, {1, -0.5, 3}, {1, 0.25, 2}});
         break;
       default:  // a box sunk in the floor, and one in the other
@@ -303,6 +304,47 @@ TEST(LightEvents, BlockersThatTouchAndCross) {
     const Lit lit(soup);
     EXPECT_GT(expect_complete_along(lit, 12, 270 + kind, -4, -4, 4, 4), 20) << kind;
   }
+}
+
+// Points u, v of the rectangle from `corner` along two sides.
+int expect_complete_on(const Lit& lit, int count, unsigned seed, const Point& corner,
+                       const Point& side, const Point& other) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> u(0.0625, 0.9375);
+  int changes = 0;
+  for (int i = 0; i < count; ++i) {
+    const Point p = corner + u(random) * side + u(random) * other;
+    const Point q = corner + u(random) * side + u(random) * other;
+    expect_complete(lit, p, q, changes);
+  }
+  return changes;
+}
+
+TEST(LightEvents, OnWallsAndRoofs) {
+  PolygonSoup soup;
+  add_rectangle(soup, "light", -1, -1, 1, 1, 4, false);
+  testing::add_box(soup, "wall", {2, -3, 0}, {2.5, 3, 3});
+  testing::add_box(soup, "low", {-2, -2, 0}, {0.5, 2, 0.5});
+  add_turned_box(soup, "b", {1.25, 0.25, 1}, {0.5, 0.75, 2}, 0.3);
+  add_polygon(soup, "t", {{-0.5, -0.25, 2}, {0.375, -0.5, 2.25}, {0.5, 0.5, 1.75}});
+  add_rectangle(soup, "floor", -8, -8, 8, 8, 0, true);
+  const Lit wall(soup, "light", "#1-1");
+  EXPECT_GT(expect_complete_on(wall, 12, 1, {2, -3, 0}, {0, 6, 0}, {0, 0, 3}), 20);
+  const Lit roof(soup, "light", "#12-12");
+  EXPECT_GT(expect_complete_on(roof, 12, 2, {-2, -2, 0.5}, {2.5, 0, 0}, {0, 4, 0}), 20);
+}
+
+TEST(LightEvents, HorizonThroughTheLight) {
+  PolygonSoup soup;
+  add_rectangle(soup, "light", -1, -1, 1, 1, 4, false);
+  testing::add_box(soup, "wall", {0.25, -3, 0}, {0.75, 3, 3});
+  // It stands against the wall.
+  testing::add_box(soup, "a", {-0.25, -0.5, 0.5}, {0.25, 0.5, 2});
+  add_polygon(soup, "t", {{-1, 0.75, 2}, {0.125, 0.5, 2.25}, {-0.25, 1.5, 1.75}});
+  // Through the wall's plane over its top.
+  add_polygon(soup, "s", {{-0.5, -1.5, 3.25}, {1, -0.5, 3.125}, {0.75, -1.75, 3.5}});
+  const Lit lit(soup, "light", "#1-1");
+  EXPECT_GT(expect_complete_on(lit, 24, 3, {0.25, -3, 0}, {0, 6, 0}, {0, 0, 3}), 20);
 }
 
 TEST(LightEvents, ScatteredTriangles) {

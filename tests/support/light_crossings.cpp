@@ -141,7 +141,23 @@ std::vector<double> light_crossings(const internal::LightSpace& space,
   Eigen::Vector4d beside;
   beside << across, -across.dot(p);
   std::vector<double> out;
+  const auto cross = [&](const Point& a, const Point& b) {
+    const double at_a = across.dot(a - p);
+    const double at_b = across.dot(b - p);
+    if (at_a * at_b > 0 || at_a == at_b) return;
+    const Point x = a + at_a / (at_a - at_b) * (b - a);
+    const double u = (x - p).dot(way) / way.squaredNorm();
+    if (u >= 0 && u <= 1) out.push_back(u);
+  };
   for (const LightTrace& trace : events.traces) {
+    if (trace.straight) {
+      for (const LightTrace::Piece& piece : trace.pieces) {
+        if (scene.faces()[piece.face].facet != facet) continue;
+        cross(internal::light_point(piece.ends[0]).rounded,
+              internal::light_point(piece.ends[1]).rounded);
+      }
+      continue;
+    }
     const PlaneTrace at(trace, plane);
     const std::vector<double> found =
         roots(beside.dot(at.at(0)), beside.dot(at.at(0.5)), beside.dot(at.at(1)));
