@@ -100,9 +100,9 @@ struct Receiver {
   bool front = true;
 };
 
-/// Receivers, in their order.  The request's threads, budget, stop and progress are heard;
-/// when time is over, the receivers that are done are answered.  Throws Stopped when
-/// nothing is.
+/// Receivers, in their order.  The request's threads, budget, stop and progress are
+/// heard; when time is over, the receivers that are done are answered.  Throws Stopped
+/// when nothing is.
 [[nodiscard]] Shadows find_shadows(const Scene& scene, const LightSource& source,
                                    const std::vector<Receiver>& receivers,
                                    const Request& request = {});

@@ -136,7 +136,8 @@ class MeshMaker {
     faces_.emplace(seen_.size());
     kept_.assign(map_.edge_count(), true);
     for (int e = 0; e < map_.edge_count(); ++e) {
-      if (is_always_edge(names_[e].kind) || structure_at(2 * e) != structure_at(2 * e + 1))
+      if (is_always_edge(names_[e].kind) ||
+          structure_at(2 * e) != structure_at(2 * e + 1))
         continue;
       kept_[e] = false;
       faces_->join(map_.face(2 * e), map_.face(2 * e + 1));
@@ -163,7 +164,8 @@ class MeshMaker {
   }
 
   [[nodiscard]] bool goes_on(int e, int f) const {
-    return names_[e].kind == names_[f].kind && map_.implicit_form(e) == map_.implicit_form(f);
+    return names_[e].kind == names_[f].kind &&
+           map_.implicit_form(e) == map_.implicit_form(f);
   }
 
   [[nodiscard]] bool is_away(const PlanePoint& p) const {

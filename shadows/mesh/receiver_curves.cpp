@@ -116,8 +116,8 @@ ReceiverCurves receiver_curves(const Scene& scene, const ReceiverPlane& plane,
     const auto& p = events.patches[k].plane.exact;
     for (const auto& [a, b] :
          plane.cut_by({rational(p[0]), rational(p[1]), rational(p[2])}, rational(p[3])))
-      maker.add_segment(
-          a, b, {ShadowEdgeKind::Plane, {"source face " + std::to_string(k)}});
+      maker.add_segment(a, b,
+                        {ShadowEdgeKind::Plane, {"source face " + std::to_string(k)}});
   }
   // Traces.
   for (const auto& [t, i] : pieces) {

@@ -73,7 +73,8 @@ TEST(ShadowMesh, SquareOverASquare) {
   // ground.
   const ShadowMesh& mesh = ground.meshes.at(0);
   for (const auto& f : mesh.faces) {
-    std::cout << static_cast<int>(f.shadow) << ' ' << f.structure << ' ' << f.area << '\n';
+    std::cout << static_cast<int>(f.shadow) << ' ' << f.structure << ' ' << f.area
+              << '\n';
   }
   const auto k = kinds(mesh);
   for (const int n : k) std::cout << n << ' ';
