@@ -74,8 +74,13 @@ struct NaiveSeenSource {
   std::vector<int> polygons;
   /// Each begins with its smallest rotation; ascending.  The seen part is on the left.
   std::vector<std::vector<NaiveSide>> boundaries;
-  /// Ends of the sides of the first boundary and so on, rounded: for messages.
-  std::vector<std::vector<Point>> drawn;
+  /// Where each side begins, rounded, and whether the one before it lies on the same
+  /// line.
+  struct Corner {
+    Point at;
+    bool straight;
+  };
+  std::vector<std::vector<Corner>> corners;
 };
 
 /// Immutable; safe to share between threads.

@@ -263,7 +263,8 @@ class Structure {
 
   void chain(const std::vector<Step>& steps, int face, NaiveSeenSource& seen) const {
     std::vector<char> used(steps.size(), 0);
-    std::vector<std::pair<std::vector<NaiveSide>, std::vector<Point>>> loops;
+    std::vector<std::pair<std::vector<NaiveSide>, std::vector<NaiveSeenSource::Corner>>>
+        loops;
     for (std::size_t first = 0; first < steps.size(); ++first) {
       if (used[first] != 0) continue;
       std::vector<std::size_t> loop{first};
@@ -278,26 +279,27 @@ class Structure {
     }
     std::ranges::sort(loops,
                       [](const auto& a, const auto& b) { return a.first < b.first; });
-    for (auto& [boundary, drawn] : loops) {
+    for (auto& [boundary, corners] : loops) {
       seen.boundaries.push_back(std::move(boundary));
-      seen.drawn.push_back(std::move(drawn));
+      seen.corners.push_back(std::move(corners));
     }
   }
 
   /// Steps on one line with one name are one; the smallest rotation.
-  [[nodiscard]] std::pair<std::vector<NaiveSide>, std::vector<Point>> told(
-      const std::vector<Step>& steps, const std::vector<std::size_t>& loop,
-      int face) const {
+  [[nodiscard]] std::pair<std::vector<NaiveSide>, std::vector<NaiveSeenSource::Corner>>
+  told(const std::vector<Step>& steps, const std::vector<std::size_t>& loop,
+       int face) const {
     std::vector<NaiveSide> sides;
-    std::vector<Point> drawn;
+    std::vector<NaiveSeenSource::Corner> corners;
     for (std::size_t i = 0; i < loop.size(); ++i) {
       const Step& last = steps[loop[(i + loop.size() - 1) % loop.size()]];
       const Step& step = steps[loop[i]];
       if (last.line == step.line && last.on == step.on) continue;
       sides.push_back(step.on);
       const Vec3 at = in_space(step.from, face);
-      drawn.emplace_back(static_cast<double>(at[0]), static_cast<double>(at[1]),
-                         static_cast<double>(at[2]));
+      corners.push_back({Point(static_cast<double>(at[0]), static_cast<double>(at[1]),
+                               static_cast<double>(at[2])),
+                         last.line == step.line});
     }
     std::vector<NaiveSide> best = sides;
     std::size_t shift = 0;
@@ -310,9 +312,9 @@ class Structure {
         shift = i;
       }
     }
-    std::rotate(drawn.begin(), drawn.begin() + static_cast<std::ptrdiff_t>(shift),
-                drawn.end());
-    return {best, drawn};
+    std::rotate(corners.begin(), corners.begin() + static_cast<std::ptrdiff_t>(shift),
+                corners.end());
+    return {best, corners};
   }
 
   const NaiveRays& rays_;

@@ -121,7 +121,7 @@ std::optional<bool> meets(const NaiveShadowFace& face, const Vec3& p, const Vec3
 
 /// By the definition; nullopt for a segment that touches a side.
 std::optional<bool> sees(const std::vector<NaiveShadowFace>& faces,
-                         const internal::SolidIndex& solids, const ShadowPoint& p,
+                         const internal::SolidIndex& solids, const AskedPoint& p,
                          const Vec3& s) {
   if (p.normal && dot(*p.normal, s - p.at).sign() <= 0) return false;
   bool hidden = false;
@@ -149,11 +149,11 @@ TEST(NaiveShadow, SegmentsToSamplesOfTheLightsSaySo) {
     const auto faces = naive_shadow_faces(scene, faces_of_groups(scene, lit.lights),
                                           faces_of_groups(scene, lit.two_sided));
     const NaiveShadow::Setup setup(faces);
-    auto points = random_shadow_points(scene, 5, 4);
-    const auto more = event_shadow_points(scene, 6, 8);
+    auto points = random_asked_points(scene, 5, 4);
+    const auto more = event_asked_points(scene, 6, 8);
     points.insert(points.end(), more.begin(), more.end());
     Random random(7);
-    for (const ShadowPoint& p : points) {
+    for (const AskedPoint& p : points) {
       const NaiveRays rays(setup, p.at);
       const SourceParts parts = parts_seen(rays, p.normal);
       for (const int f : parts.shown) {
@@ -270,8 +270,8 @@ TEST(NaiveShadow, IsTheSameCutIntoTrianglesAndOnOtherAxes) {
     const NaiveShadow shadow(faces), cut(cut_and_shuffled(faces)), turned(turned_faces);
     for (const bool event : {false, true}) {
       const auto points =
-          event ? event_shadow_points(scene, 2, 6) : random_shadow_points(scene, 1, 6);
-      for (const ShadowPoint& p : points) {
+          event ? event_asked_points(scene, 2, 6) : random_asked_points(scene, 1, 6);
+      for (const AskedPoint& p : points) {
         const NaiveLightAt a = shadow.at(p.at, p.normal), b = cut.at(p.at, p.normal);
         std::optional<Vec3> normal;
         if (p.normal) normal = on_other_axes(*p.normal);

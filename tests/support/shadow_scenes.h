@@ -33,21 +33,20 @@ struct ShadowScene {
 
 [[nodiscard]] NaiveShadow naive_shadow(const Scene& scene, const ShadowScene& lit);
 
-struct ShadowPoint {
+struct AskedPoint {
   Vec3 at;
   std::optional<Vec3> normal;
 };
 
 /// Points in the scene's box and a little beyond, doubles; half of them on faces, as near
 /// as doubles come, with the face's normal.
-[[nodiscard]] std::vector<ShadowPoint> random_shadow_points(const Scene& scene,
-                                                            std::uint64_t seed,
-                                                            int count);
+[[nodiscard]] std::vector<AskedPoint> random_asked_points(const Scene& scene,
+                                                          std::uint64_t seed, int count);
 
 /// Points on events, exactly: small integers, on lines through a corner and an edge,
 /// through three edges, in planes of faces, on faces, edges and corners, on lines through
 /// a point of an edge and a corner of another; some moved by 2^-60.
-[[nodiscard]] std::vector<ShadowPoint> event_shadow_points(const Scene& scene,
-                                                           std::uint64_t seed, int count);
+[[nodiscard]] std::vector<AskedPoint> event_asked_points(const Scene& scene,
+                                                         std::uint64_t seed, int count);
 
 }  // namespace sightline::testing

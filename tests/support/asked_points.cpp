@@ -115,10 +115,10 @@ Vec3 event_point(Random& random, const Scene& scene) {
 
 }  // namespace
 
-std::vector<ShadowPoint> random_shadow_points(const Scene& scene, std::uint64_t seed,
-                                              int count) {
+std::vector<AskedPoint> random_asked_points(const Scene& scene, std::uint64_t seed,
+                                            int count) {
   Random random(seed);
-  std::vector<ShadowPoint> result;
+  std::vector<AskedPoint> result;
   for (int i = 0; i < count; ++i) {
     if (i % 2 == 0) {
       Point p;
@@ -143,12 +143,12 @@ std::vector<ShadowPoint> random_shadow_points(const Scene& scene, std::uint64_t 
   return result;
 }
 
-std::vector<ShadowPoint> event_shadow_points(const Scene& scene, std::uint64_t seed,
-                                             int count) {
+std::vector<AskedPoint> event_asked_points(const Scene& scene, std::uint64_t seed,
+                                           int count) {
   Random random(seed);
-  std::vector<ShadowPoint> result;
+  std::vector<AskedPoint> result;
   for (int i = 0; i < count; ++i) {
-    ShadowPoint point{event_point(random, scene), std::nullopt};
+    AskedPoint point{event_point(random, scene), std::nullopt};
     if (random.one_in(10)) {
       for (Rational& x : point.at) x += Rational(random.integer(-9, 9) * 0x1p-60);
     }
