@@ -9,13 +9,13 @@
 #include <set>
 
 #include "linespace/scene.h"
+#include "tests/shadows/naive_plane_counts.h"
+#include "tests/shadows/plane_curve_generators.h"
 
 namespace sightline::internal {
 namespace {
 
-PlaneOutline square(int from, int to) {
-  return {{{from, from}, {to, from}, {to, to}, {from, to}}};
-}
+PlaneOutline square(int from, int to) { return square_outline(from, to); }
 
 PlaneCurve segment(int id, int ax, int ay, int bx, int by) {
   return plane_segment(id, {ax, ay}, {bx, by});
@@ -67,6 +67,46 @@ void expect_valid(const PlanarMap& map) {
   for (int h = 0; h < map.half_edge_count(); ++h) {
     ASSERT_EQ(walked[h], map.face(h) == PlanarMap::kOutside ? 0 : 1);
   }
+}
+
+// Of edges and vertices.
+int components(const PlanarMap& map) {
+  std::vector<int> seen(map.vertex_count(), 0);
+  int count = 0;
+  for (int v = 0; v < map.vertex_count(); ++v) {
+    if (seen[v]) continue;
+    ++count;
+    std::vector<int> stack{v};
+    seen[v] = 1;
+    while (!stack.empty()) {
+      const int u = stack.back();
+      stack.pop_back();
+      for (const int h : map.star(u)) {
+        if (!seen[map.target(h)]) {
+          seen[map.target(h)] = 1;
+          stack.push_back(map.target(h));
+        }
+      }
+    }
+  }
+  return count;
+}
+
+// Euler's formula, areas that are positive and fill an outline without holes, points
+// inside faces that lie in these faces.
+void expect_consistent(const PlanarMap& map, double area) {
+  expect_valid(map);
+  EXPECT_EQ(map.vertex_count() - map.edge_count() + map.face_count() + 1,
+            1 + components(map));
+  double sum = 0;
+  for (int f = 0; f < map.face_count(); ++f) {
+    EXPECT_GT(map.area(f), 0);
+    sum += map.area(f);
+    const PlanePoint p = map.interior_point(f);
+    EXPECT_EQ(naive_faces_around(map, {nearest_double(p[0]), nearest_double(p[1])}),
+              std::vector{f});
+  }
+  EXPECT_NEAR(sum, area, 1e-12 * area);
 }
 
 TEST(PlanarMapOfSegments, NothingButTheOutline) {
@@ -129,6 +169,43 @@ TEST(PlanarMapOfSegments, CurvesOutsideAreRefused) {
   EXPECT_THROW(PlanarMap(std::vector{segment(1, 11, 1, 12, 1)}, square(0, 10)),
                InvalidInput);
 }
+
+enum class Kind { Segments, Arcs, Shortened, Mixed };
+
+std::vector<PlaneCurve> random_curves(Kind kind, unsigned seed, int count, int size) {
+  CurveGenerator generate(seed, size);
+  std::vector<PlaneCurve> curves;
+  for (int i = 0; i < count; ++i) {
+    const int which =
+        kind == Kind::Mixed ? generate.number(0, 2) : static_cast<int>(kind);
+    PlaneCurve curve = which == 0 ? generate.segment(i) : generate.arc(i);
+    if (which == 2) curve = generate.shortened(curve);
+    curves.push_back(curve);
+  }
+  return curves;
+}
+
+class PlanarMapOfRandomCurves : public testing::TestWithParam<Kind> {};
+
+TEST_P(PlanarMapOfRandomCurves, IsConsistentAndCountedRight) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const int size = seed % 3 == 0 ? 4 : seed % 3 == 1 ? 10 : 100;
+    const int count = 2 + static_cast<int>(seed % 9);
+    SCOPED_TRACE(testing::Message()
+                 << "seed " << seed << ", " << count << " in " << size);
+    const auto curves = random_curves(GetParam(), seed, count, size);
+    const PlaneOutline outline = square(0, size);
+    const PlanarMap map(curves, outline);
+    expect_consistent(map, size * size);
+    const NaiveCounts naive = naive_counts(curves, outline);
+    EXPECT_EQ(map.vertex_count(), naive.vertices);
+    EXPECT_EQ(map.edge_count(), naive.edges);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, PlanarMapOfRandomCurves,
+                         testing::Values(Kind::Segments, Kind::Arcs, Kind::Shortened,
+                                         Kind::Mixed));
 
 }  // namespace
 }  // namespace sightline::internal
