@@ -44,7 +44,7 @@ double rounded(const CurveEnd& end) {
 // The parameter of a point that lies on a curve, by bisection: the way along the chord
 // grows with it on a line.
 double parameter_on_line(const PlaneCurve& curve, const Eigen::Vector2d& p) {
-  const auto at = [&](double s) {
+  const auto at = [&](double s) -> Eigen::Vector2d {
     return Eigen::Vector2d(value(curve.x, s), value(curve.y, s)) / value(curve.w, s);
   };
   double lo = rounded(curve.from), hi = rounded(curve.to);

@@ -25,6 +25,8 @@ struct PlanarGeometry {
   std::vector<PlaneCurve> curves;  ///< the input
   /// For each arc its vertices, ascending.
   std::vector<std::vector<ArcParameter>> positions;
+  /// For each arc, ascending, the positions that are corners of the outline.
+  std::vector<std::vector<int>> corners;
 };
 
 /// From its first vertex to its second the parameter of its arc grows.

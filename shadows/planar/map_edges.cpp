@@ -57,6 +57,7 @@ class MapBuilder {
     geometry->all = std::move(all_);
     geometry->curves.assign(curves.begin(), curves.end());
     geometry->positions = std::move(positions_);
+    geometry->corners = std::move(corners_);
     map.geometry = geometry;
     map.edges = std::move(edges_);
     for (std::vector<int>& ids : ids_) {
@@ -178,6 +179,10 @@ class MapBuilder {
       for (std::size_t m = 0; m < members.size(); ++m) {
         const int from = rank_[a][member_first_[a] + 2 * m];
         const int to = rank_[a][member_first_[a] + 2 * m + 1];
+        if (members[m].curve < 0) {
+          corners_[a].push_back(from);
+          corners_[a].push_back(to);
+        }
         for (int k = from; k < to; ++k) {
           MapEdge& edge = edges_[first + static_cast<std::size_t>(k)];
           if (members[m].curve >= 0) {
@@ -190,6 +195,7 @@ class MapBuilder {
         }
       }
     }
+    for (std::vector<int>& positions : corners_) std::ranges::sort(positions);
     unite_pieces_of_conics();
   }
 
@@ -285,6 +291,7 @@ class MapBuilder {
   std::vector<std::vector<int>> rank_;       // of an entry: its position
   std::vector<std::vector<ArcParameter>> positions_;
   std::vector<std::vector<int>> point_of_position_{arc_count()};
+  std::vector<std::vector<int>> corners_{arc_count()};
   std::vector<std::vector<int>> vertex_of_;  // of a position
   std::unique_ptr<UnionFind> points_at_;
   int points_ = 0;

@@ -1,6 +1,8 @@
 #include "shadows/planar/map_faces.h"
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <numeric>
 
 #include "linespace/scene.h"
@@ -109,44 +111,35 @@ class FaceFinder {
     }
   }
 
-  [[nodiscard]] static std::optional<bool> before(const ScanHit& a, const ScanHit& b) {
-    if (a.range.hi < b.range.lo) return true;
-    if (b.range.hi < a.range.lo) return false;
-    if (!a.exact || !b.exact) return std::nullopt;
-    return compare(*a.exact, *b.exact) == Sign::Negative;
+  // Sorts; false where enclosures overlap and nothing exact is known.
+  static bool sort(std::vector<ScanHit>& hits) {
+    const auto apart_in_order = [](const ScanHit& a, const ScanHit& b) {
+      return a.range.hi < b.range.lo;
+    };
+    std::ranges::sort(hits, [](const ScanHit& a, const ScanHit& b) {
+      if (apart(a.range, b.range) || !a.exact) return a.range.lo < b.range.lo;
+      return compare(*a.exact, *b.exact) == Sign::Negative;
+    });
+    return hits.empty() || hits[0].exact ||
+           std::ranges::adjacent_find(hits, std::not_fn(apart_in_order)) == hits.end();
   }
 
-  // The first crossing with e's component, and the last one before that.
-  bool place(int e, const std::vector<ScanHit>& hits) {
+  // All hits from far away up to the component's first: what lies between two of them
+  // is one face.  The face around the component is thus united with the boundaries of
+  // whatever else lies in it before the component, up to its outer boundary.
+  bool place(int e, std::vector<ScanHit> hits) {
+    if (!sort(hits)) return false;
     const int component = components_.find(map_.edges[e].ends[0]);
-    const auto own = [&](const ScanHit& h) {
-      return components_.find(map_.edges[h.half_edge >> 1].ends[0]) == component;
-    };
-    const ScanHit* first = nullptr;
+    int before = plane();
     for (const ScanHit& h : hits) {
-      if (!own(h)) continue;
-      if (!first) {
-        first = &h;
-        continue;
+      faces_->unite(before, cycle_[h.half_edge]);
+      if (components_.find(map_.edges[h.half_edge >> 1].ends[0]) == component) {
+        outward_[cycle_[h.half_edge]] = true;
+        return true;
       }
-      const std::optional<bool> earlier = before(h, *first);
-      if (!earlier) return false;
-      if (*earlier) first = &h;
+      before = cycle_[h.half_edge ^ 1];
     }
-    if (!first) return false;
-    const ScanHit* last = nullptr;
-    for (const ScanHit& h : hits) {
-      if (own(h)) continue;
-      const std::optional<bool> earlier = before(h, *first);
-      if (!earlier) return false;
-      if (!*earlier) continue;
-      const std::optional<bool> later = last ? before(*last, h) : true;
-      if (!later) return false;
-      if (*later) last = &h;
-    }
-    outward_[cycle_[first->half_edge]] = true;
-    faces_->unite(cycle_[first->half_edge], last ? cycle_[last->half_edge ^ 1] : plane());
-    return true;
+    return false;
   }
 
   // Which boundaries are outside of the outline.

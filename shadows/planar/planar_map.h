@@ -36,6 +36,8 @@ struct CurvePart {
   double from, to;
 };
 
+struct ReducedMap;
+
 class PlanarMap {
  public:
   /// Of curves inside a polygon, whose sides are edges of the map, too.
@@ -102,10 +104,25 @@ class PlanarMap {
   /// edge.
   [[nodiscard]] double area(int f) const;
 
+  // ---- fewer edges
+
+  /// The map after edges are taken out: faces merge, a vertex that is left without an
+  /// edge goes, and so does one at which two edges of one curve (the same ids) meet and
+  /// no other.  Vertices, edges and faces that are left keep their order.  Throws
+  /// InvalidInput for an edge of the outline.  Cost: as for finding faces, no crossings.
+  [[nodiscard]] ReducedMap without(std::span<const int> edges) const;
+
  private:
   explicit PlanarMap(std::shared_ptr<const MapData> data) : data_(std::move(data)) {}
 
   std::shared_ptr<const MapData> data_;
+};
+
+/// A map and what became of the edges and faces of the one that it was made from.
+struct ReducedMap {
+  PlanarMap map;
+  std::vector<int> edge_of;  ///< of each old edge the new one it is a part of; -1: out
+  std::vector<int> face_of;  ///< of each old face the new one it is a part of
 };
 
 }  // namespace sightline::internal

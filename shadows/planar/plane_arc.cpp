@@ -78,7 +78,9 @@ bool finite(const std::array<Integer, 3>& w, const QuadraticRoot& from,
   if (w[2] == 0) return true;
   const Ring d = f[1] * f[1] - 4 * f[0] * f[2];
   if (sign_of(d) == Sign::Negative) return true;
-  // Two roots between the ends, or none: the extremum lies between them.
+  // The sign of the leading coefficient is that outside of both roots.  Where the ends
+  // have it, either both roots lie between them, and the extremum with them, or none.
+  if ((w[2] > 0) != (sign == Sign::Positive)) return true;
   const QuadraticRoot extremum = w[2] > 0 ? QuadraticRoot{-f[1], 0, 2 * f[2], 0}
                                           : QuadraticRoot{f[1], 0, -2 * f[2], 0};
   return compare(from, extremum) != Sign::Negative ||
