@@ -24,7 +24,7 @@ class EventFinder {
  public:
   EventFinder(const PatchSpace& at, std::span<const std::uint8_t> front,
               std::span<const std::uint8_t> back)
-      : at_(at), space_(at.space), scan_(at.space, at.patch, at.sides, front, back) {}
+      : at_(at), space_(at.space), scan_(at.space, at.patch, at.sides, at.faces_in_front, front, back) {}
 
   std::vector<LightTrace> of_point(const PencilPoint& p, bool on_source);
   std::vector<LightTrace> of_edge(int edge);
@@ -56,8 +56,6 @@ class EventFinder {
   const PatchSpace& at_;
   const LightSpace& space_;
   FamilyScan scan_;
-  std::vector<int> faces_;         // that lines of the anchor at hand may meet
-  std::vector<int> family_faces_;  // that those of the family may
   std::vector<LightTrace> out_;
   std::size_t families_ = 0;
 };

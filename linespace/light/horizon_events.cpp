@@ -22,7 +22,7 @@ class HorizonFinder {
       : at_(at),
         facet_(facet),
         plane_(at.space.faces()[at.space.scene().facets()[facet].faces[0]].plane),
-        scan_(at.space, at.patch, at.sides, {}, {}) {}
+        scan_(at.space, at.patch, at.sides, at.faces_in_front, {}, {}) {}
 
   std::vector<LightTrace> find(std::span<const std::uint8_t> front,
                                std::span<const std::uint8_t> back) {
