@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "linespace/light/family_region.h"
-
 namespace sightline::internal {
 namespace {
 
@@ -83,12 +81,27 @@ const std::vector<ScannedPiece>& FamilyScan::scan(const LineFamily& family,
   return pieces_;
 }
 
-bool FamilyScan::reaches_freely(const FamilyLine& line,
-                                std::span<const FamilyContact> contacts,
-                                std::span<const int> faces) {
+bool FamilyScan::reaches_freely(const LineFamily& family,
+                                std::span<const FamilyContact> contacts) {
+  const FamilyLine line(family, 0.5);
   if (!reaches_source(line, contacts, -1)) return false;
-  candidates_.assign(faces.begin(), faces.end());
+  FamilyRegion region(space_.size());
+  region.add(family, 0.5, 0.5);
+  find_near(region);
+  candidates_ = near_;
   return first_met(line, contacts).has_value();
+}
+
+void FamilyScan::find_near(const FamilyRegion& region) {
+  near_.clear();
+  space_.face_tree().traverse([&](const Box& box) { return region.may_meet(box); },
+                              [&](std::uint32_t f) {
+                                if (in_front_[f] != 0 &&
+                                    region.may_meet(space_.faces()[f].box)) {
+                                  near_.push_back(static_cast<int>(f));
+                                }
+                              });
+  std::ranges::sort(near_);
 }
 
 void FamilyScan::sort_cuts(const LineFamily& family) {
@@ -200,15 +213,7 @@ void FamilyScan::find_candidates(const LineFamily& family, const Four<Approx>* p
   FamilyRegion region(space_.size());
   if (plane != nullptr) region.set_plane(*plane);
   for (const Interval& lit : lit_) region.add(family, lit.from.lo, lit.to.hi);
-  near_.clear();
-  space_.face_tree().traverse([&](const Box& box) { return region.may_meet(box); },
-                              [&](std::uint32_t f) {
-                                if (in_front_[f] != 0 &&
-                                    region.may_meet(space_.faces()[f].box)) {
-                                  near_.push_back(static_cast<int>(f));
-                                }
-                              });
-  std::ranges::sort(near_);
+  find_near(region);
   candidates_.clear();
   for (const int f : near_) {
     bool left = false;

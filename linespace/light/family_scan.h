@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "linespace/light/family_region.h"
 #include "linespace/light/light_space.h"
 #include "linespace/light/line_family.h"
 #include "linespace/light/source_patches.h"
@@ -53,11 +54,10 @@ class FamilyScan {
   const std::vector<ScannedPiece>& scan(
       const LineFamily& family, std::span<const FamilyContact> contacts, int farthest,
       const Four<Approx>* plane);
-  /// Of one line of the family, the same for all: whether it reaches the source past all
-  /// contacts, and no face's inside is in the way.
-  [[nodiscard]] bool reaches_freely(const FamilyLine& line,
-                                    std::span<const FamilyContact> contacts,
-                                    std::span<const int> faces);
+  /// Of a family that is one line: whether it reaches the source past all contacts, and
+  /// no face's inside is in the way.
+  [[nodiscard]] bool reaches_freely(const LineFamily& family,
+                                    std::span<const FamilyContact> contacts);
   /// Of the last scan.
   [[nodiscard]] std::span<const ScannedPiece> pieces() const { return pieces_; }
 
@@ -80,6 +80,7 @@ class FamilyScan {
                                     std::span<const FamilyContact> contacts,
                                     int farthest);
   [[nodiscard]] bool on_source(const FamilyLine& line) const;
+  void find_near(const FamilyRegion& region);
   void find_candidates(const LineFamily& family, const Four<Approx>* plane);
   void add_face_cuts(const LineFamily& family, std::span<const FamilyContact> contacts);
   struct Met {
