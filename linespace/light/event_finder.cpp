@@ -10,24 +10,15 @@ namespace sightline::internal {
 
 std::vector<LightTrace> EventFinder::of_point(const PencilPoint& p, bool on_source) {
   out_.clear();
-  faces_.clear();
   if (on_source) {
-    faces_ = at_.front_faces;
-    for (const int e : at_.front_edges) add_pencil(p, segment(e));
+    for (const int e : at_.front_edges) {
+      if (sight_.sees_source(e)) add_pencil(p, segment(e));
+    }
     return std::move(out_);
   }
+  if (!sight_.sees_source(*p.point)) return {};
   const Point& v = p.point->rounded;
   const SourceShaft shaft(v, v, at_.patch.hull, space_.size());
-  space_.face_tree().traverse(
-      [&](const Box& box) {
-        return shaft.may_meet_before(box) || shaft.may_meet_beyond(box);
-      },
-      [&](std::uint32_t f) {
-        const Box& box = space_.faces()[f].box;
-        if (shaft.may_meet_before(box) || shaft.may_meet_beyond(box)) {
-          faces_.push_back(static_cast<int>(f));
-        }
-      });
   std::vector<int> edges;
   space_.edge_tree().traverse(
       [&](const Box& box) {
@@ -37,12 +28,11 @@ std::vector<LightTrace> EventFinder::of_point(const PencilPoint& p, bool on_sour
         const LightLine& l = *space_.edges()[e].line;
         const Point& q0 = l.ends[0]->rounded;
         const Point& q1 = l.ends[1]->rounded;
-        if (at_.edge_in_front(static_cast<int>(e)) &&
+        if (sight_.sees_source(static_cast<int>(e)) &&
             (shaft.may_meet_before(q0, q1) || shaft.may_meet_beyond(q0, q1))) {
           edges.push_back(static_cast<int>(e));
         }
       });
-  std::ranges::sort(faces_);
   std::ranges::sort(edges);
   for (const int e : edges) add_pencil(p, segment(e));
   for (std::size_t i = 0; i < at_.sides.size(); ++i) add_pencil(p, source_side(i));
@@ -59,8 +49,8 @@ bool EventFinder::share_convex(const std::vector<int>& x,
 bool EventFinder::crosses_source(const Four<Approx>& plane) const {
   bool front = false;
   bool behind = false;
-  for (const Point& h : at_.patch.hull) {
-    const Approx v = value(plane, light_point(h).near);
+  for (const Four<Approx>& h : at_.hull) {
+    const Approx v = value(plane, h);
     front = front || !(v.v < -v.e);
     behind = behind || !(v.v > v.e);
   }
@@ -76,26 +66,14 @@ void EventFinder::add_pencil(const PencilPoint& p, const AnySegment& e) {
   }
   const Four<Approx> plane = plane_of(e.line->near, p.point->near);
   if (!crosses_source(plane) || is_on_line(*p.point, *e.line)) return;
-  // Only faces with corners on both sides of the plane are passed inside.
-  family_faces_.clear();
-  for (const int f : faces_) {
-    bool front = false;
-    bool behind = false;
-    for (const int c : space_.scene().face_points(f)) {
-      const Approx v = value(plane, space_.point(c).near);
-      front = front || !(v.v < -v.e);
-      behind = behind || !(v.v > v.e);
-      if (front && behind) break;
-    }
-    if (front && behind) family_faces_.push_back(f);
-  }
+  if (e.edge >= 0 && !sight_.may_see(*p.point, e.edge)) return;
   ++families_;
   const LineFamily family(*p.point, *e.line->ends[0], *e.line->ends[1]);
   const FamilyContact contacts[] = {
       {FamilyContact::At::First},
       {FamilyContact::At::Last, nullptr, {}, moving(e)},
   };
-  if (scan_.scan(family, contacts, -1, family_faces_).empty()) return;
+  if (scan_.scan(family, contacts, -1, &plane).empty()) return;
   LightTrace trace;
   trace.kind = LightEventKind::EV;
   name_pencil(p, e, trace);
@@ -136,69 +114,27 @@ int EventFinder::common_facet(const AnySegment& a, const AnySegment& b) const {
 
 std::vector<LightTrace> EventFinder::of_edge(int edge) {
   out_.clear();
-  faces_.clear();
   const AnySegment a = segment(edge);
-  const LightEdge& own = space_.edges()[edge];
-  const LightPoint& a0 = *a.line->ends[0];
-  const LightPoint& a1 = *a.line->ends[1];
-  const SourceShaft shaft(a0.rounded, a1.rounded, at_.patch.hull, space_.size());
-  space_.face_tree().traverse(
-      [&](const Box& box) {
-        return shaft.may_meet_before(box) || shaft.may_meet_beyond(box);
-      },
-      [&](std::uint32_t f) {
-        const Box& box = space_.faces()[f].box;
-        if (shaft.may_meet_before(box) || shaft.may_meet_beyond(box)) {
-          faces_.push_back(static_cast<int>(f));
-        }
-      });
-  std::ranges::sort(faces_);
-  // Nearer to the source than some point of the edge.
-  const auto height = [&](int point) { return at_.heights[point]; };
-  const Approx h0 = height(own.points[0]);
-  const Approx h1 = height(own.points[1]);
-  const double top = std::max(h0.v + h0.e, h1.v + h1.e);
-  std::vector<int> others;
-  space_.edge_tree().traverse(
-      [&](const Box& box) { return shaft.may_meet_before(box); },
-      [&](std::uint32_t i) {
-        const int e = static_cast<int>(i);
-        if (e == edge || !at_.edge_in_front(e)) return;
-        const LightEdge& other = space_.edges()[i];
-        const Approx g0 = height(other.points[0]);
-        const Approx g1 = height(other.points[1]);
-        if (std::min(g0.v - g0.e, g1.v - g1.e) > top) return;
-        const LightPoint& q0 = *other.line->ends[0];
-        const LightPoint& q1 = *other.line->ends[1];
-        if (!shaft.may_meet_before(q0.rounded, q1.rounded)) return;
-        if (never_grazes(space_, other, a0, a1) || never_grazes(space_, own, q0, q1)) {
-          return;
-        }
-        others.push_back(e);
-      });
-  std::ranges::sort(others);
-  for (std::size_t i = 0; i < others.size(); ++i) {
+  const std::vector<int>& nearer = sight_.nearer(edge);
+  for (const int m : nearer) {
     hear_stop();
-    const AnySegment m = segment(others[i]);
-    for (std::size_t j = i + 1; j < others.size(); ++j) {
-      visit_pair(a, m, segment(others[j]));
+    const AnySegment middle = segment(m);
+    const bool in_plane = sign_between(*a.line, *middle.line) == Sign::Zero;
+    // Those nearer to the source than both; pairs that may be met in either order once.
+    for (const int b : sight_.nearer(m)) {
+      if (!std::ranges::binary_search(nearer, b)) continue;
+      if (b < m && std::ranges::binary_search(sight_.nearer(b), m)) continue;
+      visit_pair(a, middle, segment(b), in_plane);
     }
-    for (std::size_t j = 0; j < at_.sides.size(); ++j) visit_pair(a, m, source_side(j));
+    for (std::size_t j = 0; j < at_.sides.size(); ++j) {
+      visit_pair(a, middle, source_side(j), in_plane);
+    }
   }
   return std::move(out_);
 }
 
 void EventFinder::visit_pair(const AnySegment& a, const AnySegment& m,
-                             const AnySegment& b) {
-  if (b.edge >= 0) {
-    const LightEdge& x = space_.edges()[m.edge];
-    const LightEdge& y = space_.edges()[b.edge];
-    if (never_grazes(space_, x, *b.line->ends[0], *b.line->ends[1]) ||
-        never_grazes(space_, y, *m.line->ends[0], *m.line->ends[1])) {
-      return;
-    }
-  }
-  const bool am = sign_between(*a.line, *m.line) == Sign::Zero;
+                             const AnySegment& b, bool am) {
   const bool ab = sign_between(*a.line, *b.line) == Sign::Zero;
   if (am && ab) return;
   const bool mb = sign_between(*m.line, *b.line) == Sign::Zero;
@@ -246,7 +182,7 @@ void EventFinder::add_regulus(const AnySegment& a, const AnySegment& m,
       {FamilyContact::At::OnEdge, m.line, {&to_m0, &to_m1}, moving(m)},
       {FamilyContact::At::OnEdge, b.line, {&to_b0, &to_b1}, moving(b)},
   };
-  if (scan_.scan(family, contacts, 0, faces_).empty()) return;
+  if (scan_.scan(family, contacts, 0, nullptr).empty()) return;
   LightTrace trace;
   trace.kind = LightEventKind::EEE;
   trace.generators = {a.name, m.name, b.name};
@@ -285,18 +221,6 @@ void EventFinder::add_in_plane(const AnySegment& a, const AnySegment& e,
   }
   const LightLine to_f0 = light_line(up, *f.line->ends[0]);
   const LightLine to_f1 = light_line(up, *f.line->ends[1]);
-  family_faces_.clear();
-  for (const int face : faces_) {
-    bool front = false;
-    bool behind = false;
-    for (const int c : space_.scene().face_points(face)) {
-      const Approx v = value(plane.near, space_.point(c).near);
-      front = front || !(v.v < -v.e);
-      behind = behind || !(v.v > v.e);
-      if (front && behind) break;
-    }
-    if (front && behind) family_faces_.push_back(face);
-  }
   ++families_;
   const LineFamily family(x, *e.line->ends[0], *e.line->ends[1]);
   const FamilyContact contacts[] = {
@@ -305,7 +229,7 @@ void EventFinder::add_in_plane(const AnySegment& a, const AnySegment& e,
       {FamilyContact::At::OnEdge, f.line, {&to_f0, &to_f1}, moving(f)},
   };
   const int farthest = across.line == a.line ? 0 : e.line == a.line ? 1 : 2;
-  if (scan_.scan(family, contacts, farthest, family_faces_).empty()) return;
+  if (scan_.scan(family, contacts, farthest, &plane.near).empty()) return;
   LightTrace trace;
   trace.kind = facet < 0 ? LightEventKind::EE : LightEventKind::Face;
   trace.generators = {across.name, e.name, f.name};

@@ -9,6 +9,7 @@
 #include "linespace/light/family_scan.h"
 #include "linespace/light/light_traces.h"
 #include "linespace/light/patch_space.h"
+#include "linespace/light/source_sight.h"
 
 namespace sightline::internal {
 
@@ -22,9 +23,12 @@ struct AnySegment {
 /// Keeps references and scratch: one for a thread.
 class EventFinder {
  public:
-  EventFinder(const PatchSpace& at, std::span<const std::uint8_t> front,
-              std::span<const std::uint8_t> back)
-      : at_(at), space_(at.space), scan_(at.space, at.patch, at.sides, front, back) {}
+  EventFinder(const PatchSpace& at, const SourceSight& sight,
+              std::span<const std::uint8_t> front, std::span<const std::uint8_t> back)
+      : at_(at),
+        sight_(sight),
+        space_(at.space),
+        scan_(at.space, at.patch, at.sides, at.faces_in_front, front, back) {}
 
   std::vector<LightTrace> of_point(const PencilPoint& p, bool on_source);
   std::vector<LightTrace> of_edge(int edge);
@@ -33,7 +37,8 @@ class EventFinder {
  private:
   void add_pencil(const PencilPoint& p, const AnySegment& e);
   void name_pencil(const PencilPoint& p, const AnySegment& e, LightTrace& trace) const;
-  void visit_pair(const AnySegment& a, const AnySegment& m, const AnySegment& b);
+  void visit_pair(const AnySegment& a, const AnySegment& m, const AnySegment& b,
+                  bool am);
   void add_regulus(const AnySegment& a, const AnySegment& m, const AnySegment& b);
   void add_in_plane(const AnySegment& a, const AnySegment& e, const AnySegment& f,
                     const AnySegment& across);
@@ -54,10 +59,9 @@ class EventFinder {
   [[nodiscard]] int common_facet(const AnySegment& a, const AnySegment& b) const;
 
   const PatchSpace& at_;
+  const SourceSight& sight_;
   const LightSpace& space_;
   FamilyScan scan_;
-  std::vector<int> faces_;         // that lines of the anchor at hand may meet
-  std::vector<int> family_faces_;  // that those of the family may
   std::vector<LightTrace> out_;
   std::size_t families_ = 0;
 };

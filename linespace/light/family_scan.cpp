@@ -17,14 +17,15 @@ bool is_exactly(Sign a, Sign b) { return a == b; }
 const std::vector<ScannedPiece>& FamilyScan::scan(const LineFamily& family,
                                                   std::span<const FamilyContact> contacts,
                                                   int farthest,
-                                                  std::span<const int> faces) {
+                                                  const Four<Approx>* plane) {
   pieces_.clear();
   scratch_.clear();
   // 1. Where the lines meet all generators and the source.
   find_lit(family, contacts, farthest);
   if (lit_.empty()) return pieces_;
   // 2. What they may meet on the way, and where that changes.
-  find_candidates(family, faces);
+  find_candidates(family, plane);
+  if (candidates_.empty()) return pieces_;
   cuts_.clear();
   add_face_cuts(family, contacts);
   const std::vector<FamilyCut> all = cuts_;
@@ -80,12 +81,27 @@ const std::vector<ScannedPiece>& FamilyScan::scan(const LineFamily& family,
   return pieces_;
 }
 
-bool FamilyScan::reaches_freely(const FamilyLine& line,
-                                std::span<const FamilyContact> contacts,
-                                std::span<const int> faces) {
+bool FamilyScan::reaches_freely(const LineFamily& family,
+                                std::span<const FamilyContact> contacts) {
+  const FamilyLine line(family, 0.5);
   if (!reaches_source(line, contacts, -1)) return false;
-  candidates_.assign(faces.begin(), faces.end());
+  FamilyRegion region(space_.size());
+  region.add(family, 0.5, 0.5);
+  find_near(region);
+  candidates_ = near_;
   return first_met(line, contacts).has_value();
+}
+
+void FamilyScan::find_near(const FamilyRegion& region) {
+  near_.clear();
+  space_.face_tree().traverse([&](const Box& box) { return region.may_meet(box); },
+                              [&](std::uint32_t f) {
+                                if (in_front_[f] != 0 &&
+                                    region.may_meet(space_.faces()[f].box)) {
+                                  near_.push_back(static_cast<int>(f));
+                                }
+                              });
+  std::ranges::sort(near_);
 }
 
 void FamilyScan::sort_cuts(const LineFamily& family) {
@@ -192,10 +208,14 @@ bool FamilyScan::on_source(const FamilyLine& line) const {
   });
 }
 
-// Faces that some line of the family may pass the inside of.
-void FamilyScan::find_candidates(const LineFamily& family, std::span<const int> faces) {
+// Faces that some lit line of the family may pass the inside of.
+void FamilyScan::find_candidates(const LineFamily& family, const Four<Approx>* plane) {
+  FamilyRegion region(space_.size());
+  if (plane != nullptr) region.set_plane(*plane);
+  for (const Interval& lit : lit_) region.add(family, lit.from.lo, lit.to.hi);
+  find_near(region);
   candidates_.clear();
-  for (const int f : faces) {
+  for (const int f : near_) {
     bool left = false;
     bool right = false;
     for (const LightFace::Side& side : space_.faces()[f].sides) {
@@ -204,6 +224,7 @@ void FamilyScan::find_candidates(const LineFamily& family, std::span<const int> 
       const Sign turned = side.forward ? *s : -*s;
       left = left || turned == Sign::Positive;
       right = right || turned == Sign::Negative;
+      if (left && right) break;
     }
     if (!(left && right)) candidates_.push_back(f);
   }

@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "linespace/light/family_region.h"
 #include "linespace/light/light_space.h"
 #include "linespace/light/line_family.h"
 #include "linespace/light/source_patches.h"
@@ -37,25 +38,26 @@ struct ScannedPiece {
 class FamilyScan {
  public:
   FamilyScan(const LightSpace& space, const SourcePatch& patch,
-             std::span<const LightLine> sides, std::span<const std::uint8_t> front_wanted,
+             std::span<const LightLine> sides, std::span<const std::uint8_t> in_front,
+             std::span<const std::uint8_t> front_wanted,
              std::span<const std::uint8_t> back_wanted)
       : space_(space),
         patch_(patch),
         sides_(sides),
+        in_front_(in_front),
         front_wanted_(front_wanted),
         back_wanted_(back_wanted) {}
 
   /// `farthest`: position among the contacts of one that must be the farthest from the
-  /// source along the line; -1: any may.  `faces`: all that lines of the family may meet
-  /// the inside of.  The pieces are in order along the family.
-  const std::vector<ScannedPiece>& scan(const LineFamily& family,
-                                        std::span<const FamilyContact> contacts,
-                                        int farthest, std::span<const int> faces);
-  /// Of one line of the family, the same for all: whether it reaches the source past all
-  /// contacts, and no face's inside is in the way.
-  [[nodiscard]] bool reaches_freely(const FamilyLine& line,
-                                    std::span<const FamilyContact> contacts,
-                                    std::span<const int> faces);
+  /// source along the line; -1: any may.  `plane`: that all lines lie in, or null.  The
+  /// pieces are in order along the family.
+  const std::vector<ScannedPiece>& scan(
+      const LineFamily& family, std::span<const FamilyContact> contacts, int farthest,
+      const Four<Approx>* plane);
+  /// Of a family that is one line: whether it reaches the source past all contacts, and
+  /// no face's inside is in the way.
+  [[nodiscard]] bool reaches_freely(const LineFamily& family,
+                                    std::span<const FamilyContact> contacts);
   /// Of the last scan.
   [[nodiscard]] std::span<const ScannedPiece> pieces() const { return pieces_; }
 
@@ -78,7 +80,8 @@ class FamilyScan {
                                     std::span<const FamilyContact> contacts,
                                     int farthest);
   [[nodiscard]] bool on_source(const FamilyLine& line) const;
-  void find_candidates(const LineFamily& family, std::span<const int> faces);
+  void find_near(const FamilyRegion& region);
+  void find_candidates(const LineFamily& family, const Four<Approx>* plane);
   void add_face_cuts(const LineFamily& family, std::span<const FamilyContact> contacts);
   struct Met {
     int face;
@@ -102,10 +105,11 @@ class FamilyScan {
   const LightSpace& space_;
   const SourcePatch& patch_;
   std::span<const LightLine> sides_;
+  std::span<const std::uint8_t> in_front_;  // of faces: reach in front of the patch
   std::span<const std::uint8_t> front_wanted_, back_wanted_;
   std::vector<FamilyCut> cuts_;
   std::vector<Interval> lit_;
-  std::vector<int> candidates_;
+  std::vector<int> near_, candidates_;
   std::deque<LightLine> scratch_;  // that cuts point to
   std::vector<ScannedPiece> pieces_, open_;
 };

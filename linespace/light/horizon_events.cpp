@@ -22,7 +22,7 @@ class HorizonFinder {
       : at_(at),
         facet_(facet),
         plane_(at.space.faces()[at.space.scene().facets()[facet].faces[0]].plane),
-        scan_(at.space, at.patch, at.sides, {}, {}) {}
+        scan_(at.space, at.patch, at.sides, at.faces_in_front, {}, {}) {}
 
   std::vector<LightTrace> find(std::span<const std::uint8_t> front,
                                std::span<const std::uint8_t> back) {
@@ -90,10 +90,9 @@ class HorizonFinder {
     const LightLine both = light_line(a.point, b.point);
     if (std::ranges::all_of(both.exact, [](const Ring& x) { return is_zero(x); })) return;
     const LineFamily family(a.point, b.point, b.point);
-    const FamilyLine line(family, 0.5);
     const FamilyContact contacts[] = {{FamilyContact::At::First},
                                       {FamilyContact::At::Last}};
-    if (!scan_.reaches_freely(line, contacts, at_.front_faces)) return;
+    if (!scan_.reaches_freely(family, contacts)) return;
     const Four<Ring>& plane = at_.patch.plane.exact;
     const Ring high_a = value(plane, a.point.exact) * b.point.exact[3];
     const Ring high_b = value(plane, b.point.exact) * a.point.exact[3];

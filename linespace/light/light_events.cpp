@@ -19,11 +19,14 @@ LightEvents light_events(const LightSpace& space, const LightEventsRequest& requ
   for (const int f : request.receivers) front[f] = 1;
   for (const int f : request.receive_behind) back[f] = 1;
   out.patches = source_patches(space.scene(), request.source_faces);
+  Stage stage(request, "events of the source", deadline);
+  const HidingSolids solids(space);
   for (std::size_t k = 0; k < out.patches.size() && out.complete; ++k) {
     const PatchSpace at(space, out.patches[k], static_cast<int>(k));
     const std::vector<PencilPoint>& points = at.points;
     const std::vector<int> horizons = horizon_facets(at, front, back);
     const std::size_t edges_end = points.size() + at.front_edges.size();
+    const SourceSight sight(at, solids, request, stage);
     StageCounts counts;
     struct Found {
       std::vector<LightTrace> traces;
@@ -31,7 +34,7 @@ LightEvents light_events(const LightSpace& space, const LightEventsRequest& requ
     };
     const StoppedBy stopped = for_each_parallel(
         edges_end + horizons.size(), request, deadline, "events of the source", counts,
-        [&] { return std::make_unique<EventFinder>(at, front, back); },
+        [&] { return std::make_unique<EventFinder>(at, sight, front, back); },
         [&](EventFinder& finder, std::size_t i) {
           const std::size_t before = finder.families();
           Found found;

@@ -62,6 +62,9 @@ LightSpace::LightSpace(const Scene& scene, const Request& request) : scene_(scen
   points_.reserve(scene.points().size());
   for (const Point& p : scene.points()) points_.push_back(light_point(p));
   size_ = (scene.bounds()[1] - scene.bounds()[0]).norm();
+  for (const Point& corner : scene.bounds()) {
+    size_ = std::max(size_, corner.cwiseAbs().maxCoeff());
+  }
   const Silhouettes silhouettes(scene, EventMode::Solid, request);
   for (std::size_t o = 0; o < scene.objects().size(); ++o) {
     convex_.push_back(silhouettes.convex_solid(static_cast<int>(o)) ? 1 : 0);

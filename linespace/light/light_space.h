@@ -69,7 +69,7 @@ class LightSpace {
   /// Over edges().
   [[nodiscard]] const Bvh& edge_tree() const { return *edge_tree_; }
   [[nodiscard]] bool convex_solid(int object) const { return convex_[object] != 0; }
-  /// Length of the diagonal of the scene's box.
+  /// At least the length of the diagonal of the scene's box, and any coordinate.
   [[nodiscard]] double size() const { return size_; }
 
  private:

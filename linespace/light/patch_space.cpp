@@ -26,6 +26,9 @@ PatchSpace::PatchSpace(const LightSpace& s, const SourcePatch& p, int n)
   for (std::size_t e = 0; e < s.edges().size(); ++e) {
     if (edge_in_front(static_cast<int>(e))) front_edges.push_back(static_cast<int>(e));
   }
+  faces_in_front.assign(s.faces().size(), 0);
+  for (const int f : front_faces) faces_in_front[f] = 1;
+  for (const Point& h : p.hull) hull.push_back(light_point(h).near);
   find_points();
 }
 

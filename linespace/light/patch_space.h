@@ -38,6 +38,8 @@ struct PatchSpace {
   std::vector<Approx> heights;
   std::vector<Sign> signs;
   std::vector<int> front_faces, front_edges;  ///< with a point in front, ascending
+  std::vector<std::uint8_t> faces_in_front;   ///< the same by face
+  std::vector<Four<Approx>> hull;             ///< of the patch
   /// Corners of the scene in front, touches in front; then, from `own_points` on, the
   /// patch's corners.
   std::vector<PencilPoint> points;
