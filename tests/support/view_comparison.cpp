@@ -138,7 +138,6 @@ class Comparison {
 
   [[nodiscard]] bool same_vertex(const MapVertex& v, const NaiveVertex& naive) const {
     if (!near(v.at, in_picture(naive))) return false;
-    if (v.kind == MapVertexKind::Accident && naive.or_accident) return true;
     if (v.kind == MapVertexKind::Touch && naive.or_touch) return true;
     if (v.kind != naive.kind) return false;
     if (v.kind == MapVertexKind::Corner) return v.corner == naive.corner;
