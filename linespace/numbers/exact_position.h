@@ -17,4 +17,11 @@ namespace sightline::internal {
   return out;
 }
 
+[[nodiscard]] inline ExactPoint exact_point(const ExactPosition& at) {
+  ExactPoint p;
+  for (int i = 0; i < 3; ++i)
+    p[i] = at.is_double[i] ? Rational(at.nearest[i]) : Rational(at.exact[i]);
+  return p;
+}
+
 }  // namespace sightline::internal

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linespace/numbers/exact_position.h"
 #include "linespace/path/path_names.h"
 #include "linespace/path/path_walk.h"
 #include "linespace/work/stage.h"
@@ -13,14 +14,6 @@ using namespace internal;
 
 namespace {
 
-ExactPoint parsed(const ExactPosition& at) {
-  ExactPoint p;
-  for (int i = 0; i < 3; ++i) {
-    p[i] = at.is_double[i] ? Rational(at.nearest[i]) : Rational(at.exact[i]);
-  }
-  return p;
-}
-
 void check(std::span<const Viewpoint> path) {
   for (std::size_t i = 1; i < path.size(); ++i) {
     const std::string segment =
@@ -29,7 +22,7 @@ void check(std::span<const Viewpoint> path) {
       throw InvalidInput(segment + ": one is an eye, the other a direction");
     }
     if (path[i].kind == Viewpoint::Kind::Eye) continue;
-    const ExactPoint d = parsed(path[i - 1].at), e = parsed(path[i].at);
+    const ExactPoint d = exact_point(path[i - 1].at), e = exact_point(path[i].at);
     if (exact_cross(d, e) == ExactPoint{} && exact_dot(d, e) < 0) {
       throw InvalidInput(segment + " are opposite directions");
     }
@@ -90,8 +83,8 @@ class Walker {
 };
 
 void Walker::walk_segment(int segment) {
-  const SightPath path(path_[segment].kind, parsed(path_[segment].at),
-                       parsed(path_[segment + 1].at), scene_.size());
+  const SightPath path(path_[segment].kind, exact_point(path_[segment].at),
+                       exact_point(path_[segment + 1].at), scene_.size());
   PathWalk walk(scene_, path, look_);
   WalkViewPtr now = walk.first();
   if (last_) meet(segment - 1, last_, now);

@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "linespace/numbers/exact_position.h"
+
 namespace sightline::internal {
 namespace {
 
@@ -39,14 +41,6 @@ LongValue determinant(const LongVector& p, const LongVector& q, const LongVector
                      12 * kLongUnit * permanent(size, u, v)};
 }
 
-ExactPoint parsed(const ExactPosition& at) {
-  ExactPoint p;
-  for (int i = 0; i < 3; ++i) {
-    p[i] = at.is_double[i] ? Rational(at.nearest[i]) : Rational(at.exact[i]);
-  }
-  return p;
-}
-
 }  // namespace
 
 long double long_double(const Rational& x) {
@@ -59,7 +53,7 @@ long double long_double(const Rational& x) {
 EyeSpace::EyeSpace(const ViewScene& scene, const Viewpoint& eye)
     : scene_(&scene),
       direction_(eye.kind == Viewpoint::Kind::Direction),
-      eye_(parsed(eye.at)),
+      eye_(exact_point(eye.at)),
       rounded_eye_(eye.at.nearest),
       is_double_(eye.at.is_double[0] && eye.at.is_double[1] && eye.at.is_double[2]),
       vectors_(static_cast<LongVector*>(std::calloc(

@@ -35,7 +35,17 @@ std::optional<std::array<double, 2>> on_line(const Scene& scene, const InPlaneSi
   return count < 2 ? std::nullopt : range;
 }
 
-// Two convex faces of one plane have a segment or more in common.
+// Normals of two faces of one plane point to the same side.
+bool same_side(const Silhouettes& g, int f, int h) {
+  const Scene& scene = g.scene();
+  const auto c = scene.face_points(h);
+  const Point off =
+      point_off_plane(scene.point(c[0]), scene.point(c[1]), scene.point(c[2]));
+  return g.face_plane(f)(off) == g.face_plane(h)(off);
+}
+
+}  // namespace
+
 bool hang_together(const Scene& scene, int f, int h) {
   for (const auto& [face, other] : {std::pair(f, h), std::pair(h, f)}) {
     const InPlaneSide side(scene, face);
@@ -58,17 +68,6 @@ bool hang_together(const Scene& scene, int f, int h) {
   }
   return true;
 }
-
-// Normals of two faces of one plane point to the same side.
-bool same_side(const Silhouettes& g, int f, int h) {
-  const Scene& scene = g.scene();
-  const auto c = scene.face_points(h);
-  const Point off =
-      point_off_plane(scene.point(c[0]), scene.point(c[1]), scene.point(c[2]));
-  return g.face_plane(f)(off) == g.face_plane(h)(off);
-}
-
-}  // namespace
 
 std::vector<int> find_patches(const Silhouettes& g) {
   const Scene& scene = g.scene();

@@ -16,4 +16,7 @@ namespace sightline::internal {
 /// each other.
 [[nodiscard]] std::vector<int> find_patches(const Silhouettes& silhouettes);
 
+/// Two faces of one plane have a segment or more in common.
+[[nodiscard]] bool hang_together(const Scene& scene, int face, int other);
+
 }  // namespace sightline::internal

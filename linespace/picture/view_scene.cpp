@@ -158,13 +158,24 @@ bool SharedViewScene::on_one_line(int line, int other) const {
 }
 
 ViewScene ViewScene::with_window(std::span<const Point> corners) const {
-  ViewScene scene(*this);
-  scene.window_.assign(corners.begin(), corners.end());
-  scene.window_lines_.clear();
   const int first = shared_->point_count(), n = static_cast<int>(corners.size());
+  std::vector<ExactPoint> points;
+  std::vector<std::array<int, 2>> sides;
   for (int k = 0; k < n; ++k) {
-    scene.window_lines_.push_back({{first + k, first + (k + 1) % n}, {}});
+    points.push_back(exact_point(corners[k]));
+    sides.push_back({first + k, first + (k + 1) % n});
   }
+  ViewScene scene(*this);
+  scene.added_points_.clear();
+  scene.added_lines_.clear();
+  return scene.with_lines(std::move(points), sides);
+}
+
+ViewScene ViewScene::with_lines(std::vector<ExactPoint> points,
+                                std::span<const std::array<int, 2>> lines) const {
+  ViewScene scene(*this);
+  std::ranges::move(points, std::back_inserter(scene.added_points_));
+  for (const auto& ends : lines) scene.added_lines_.push_back({ends, {}});
   return scene;
 }
 

@@ -114,8 +114,8 @@ class ViewLines {
   std::span<const ViewLine> given_, added_;
 };
 
-/// A scene as a view asks it: what all views share, and the sides of the window through
-/// which this one looks.  Cheap to copy.
+/// A scene as a view asks it: what all views share, and what this one adds, such as the
+/// sides of the window through which it looks.  Cheap to copy.
 class ViewScene {
  public:
   ViewScene(const Scene& scene, const Request& request)
@@ -123,13 +123,17 @@ class ViewScene {
   /// The same scene, seen through a polygon: its corners are the last points, its sides
   /// the last lines.
   [[nodiscard]] ViewScene with_window(std::span<const Point> corners) const;
+  /// The same scene with further points, numbered from point_count() on, and lines
+  /// between any points, numbered from lines().size() on, which have no names.
+  [[nodiscard]] ViewScene with_lines(std::vector<ExactPoint> points,
+                                     std::span<const std::array<int, 2>> lines) const;
 
   [[nodiscard]] const Scene& scene() const { return shared_->scene(); }
   [[nodiscard]] const Silhouettes& silhouettes() const { return shared_->silhouettes(); }
   [[nodiscard]] std::vector<int> material_at(const ExactPoint& p) const {
     return shared_->material_at(p);
   }
-  [[nodiscard]] ViewLines lines() const { return {shared_->lines(), window_lines_}; }
+  [[nodiscard]] ViewLines lines() const { return {shared_->lines(), added_lines_}; }
   /// Number of the first line of the window; lines().size() where there is none.
   [[nodiscard]] int first_window_line() const {
     return static_cast<int>(shared_->lines().size());
@@ -147,19 +151,19 @@ class ViewScene {
     return shared_->edges_of(object);
   }
   [[nodiscard]] int point_count() const {
-    return shared_->point_count() + static_cast<int>(window_.size());
+    return shared_->point_count() + static_cast<int>(added_points_.size());
   }
   [[nodiscard]] bool is_constructed(int point) const {
     return shared_->is_constructed(point);
   }
   [[nodiscard]] ExactPoint exact(int point) const {
-    return point < shared_->point_count()
-               ? shared_->exact(point)
-               : exact_point(window_[point - shared_->point_count()]);
+    return point < shared_->point_count() ? shared_->exact(point)
+                                          : added_points_[point - shared_->point_count()];
   }
   [[nodiscard]] Point position(int point) const {
-    return point < shared_->point_count() ? shared_->position(point)
-                                          : window_[point - shared_->point_count()];
+    return point < shared_->point_count()
+               ? shared_->position(point)
+               : rounded(added_points_[point - shared_->point_count()]);
   }
   [[nodiscard]] Sign plane_side(int face, int point) const {
     return point < shared_->point_count()
@@ -177,8 +181,8 @@ class ViewScene {
 
  private:
   std::shared_ptr<const SharedViewScene> shared_;
-  std::vector<Point> window_;
-  std::vector<ViewLine> window_lines_;
+  std::vector<ExactPoint> added_points_;
+  std::vector<ViewLine> added_lines_;
 };
 
 }  // namespace sightline::internal

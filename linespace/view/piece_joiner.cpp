@@ -14,10 +14,10 @@ class Joiner {
   Joiner(const EyeSpace& eye, const std::vector<LinePiece>& pieces)
       : eye_(&eye), pieces_(&pieces) {}
 
-  JoinedPieces join() {
+  JoinedPieces join(Doubles doubles) {
     number_ends();
     split();
-    drop_doubles();
+    if (doubles == Doubles::Drop) drop_doubles();
     return {std::move(points_), std::move(scene_points_), std::move(edges_)};
   }
 
@@ -195,8 +195,9 @@ void Joiner::drop_doubles() {
 
 }  // namespace
 
-JoinedPieces join_ends(const EyeSpace& eye, const std::vector<LinePiece>& pieces) {
-  return Joiner(eye, pieces).join();
+JoinedPieces join_ends(const EyeSpace& eye, const std::vector<LinePiece>& pieces,
+                       Doubles doubles) {
+  return Joiner(eye, pieces).join(doubles);
 }
 
 }  // namespace sightline::internal

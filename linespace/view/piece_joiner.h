@@ -23,7 +23,10 @@ struct JoinedPieces {
   std::vector<JoinedEdge> edges;
 };
 
+/// Of several edges between the same two points one stays, unless all are to be kept.
+enum class Doubles : std::uint8_t { Drop, Keep };
 [[nodiscard]] JoinedPieces join_ends(const EyeSpace& eye,
-                                     const std::vector<LinePiece>& pieces);
+                                     const std::vector<LinePiece>& pieces,
+                                     Doubles doubles = Doubles::Drop);
 
 }  // namespace sightline::internal

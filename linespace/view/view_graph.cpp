@@ -5,6 +5,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "linespace/picture/turning.h"
 #include "linespace/view/first_seen.h"
 #include "linespace/view/piece_joiner.h"
 #include "linespace/view/region_links.h"
@@ -62,28 +63,15 @@ PicturePoint GraphBuilder::far_end(int half_edge) const {
 // Half-edges that leave a point, counter-clockwise.
 void GraphBuilder::turn_around(int point, std::vector<int>& leaving) const {
   if (leaving.size() < 3) return;
-  const PicturePoint& at = graph_.points[point];
   std::vector<PicturePoint> far;
-  for (const int h : leaving) far.push_back(far_end(h));
-  const auto line = [&](std::size_t i) { return graph_.edges[leaving[i] / 2].line; };
-  // One line leaves a point only both ways.
-  const auto turn = [&](std::size_t i, std::size_t j) {
-    return line(i) == line(j) ? Sign::Zero : orient(at, far[i], far[j]);
-  };
-  // From the first: 0 itself, 1 less than half a turn, 2 half a turn, 3 more.
-  std::vector<int> sector(leaving.size());
-  for (std::size_t i = 1; i < leaving.size(); ++i) {
-    const Sign s = turn(0, i);
-    sector[i] = s == Sign::Positive ? 1 : s == Sign::Zero ? 2 : 3;
+  std::vector<int> lines;
+  for (const int h : leaving) {
+    far.push_back(far_end(h));
+    lines.push_back(graph_.edges[h / 2].line);
   }
-  std::vector<std::size_t> order(leaving.size());
-  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::sort(order, [&](std::size_t i, std::size_t j) {
-    if (sector[i] != sector[j]) return sector[i] < sector[j];
-    return i != j && turn(i, j) == Sign::Positive;
-  });
   std::vector<int> turned;
-  for (const std::size_t i : order) turned.push_back(leaving[i]);
+  for (const std::size_t i : order_around(graph_.points[point], far, lines))
+    turned.push_back(leaving[i]);
   leaving = std::move(turned);
 }
 

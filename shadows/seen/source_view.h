@@ -1,0 +1,92 @@
+// What an eye sees of one plane of the source: the pieces of lines along which the part
+// seen ends.
+
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "linespace/picture/eye_star.h"
+#include "linespace/view/line_view.h"
+#include "shadows/seen/horizon.h"
+#include "shadows/seen/shades.h"
+
+namespace sightline::internal {
+
+/// The eye must lie on the side to which the plane's faces emit.
+class SourceView {
+ public:
+  struct Question {
+    const SourceScene* source;
+    const SourcePlane* plane;
+    Viewpoint eye;
+    /// nullptr where there is none.
+    const Horizon* horizon = nullptr;
+    /// Of the same eye; nullptr for an eye that is not on the scene.
+    const EyeStar* star = nullptr;
+    bool hide = true;        ///< false: as if there were no blockers
+    bool all_lines = false;  ///< also those that are only seen in line with others
+  };
+  explicit SourceView(const Question& question);
+
+  [[nodiscard]] const EyeSpace& eye() const { return *eye_; }
+  [[nodiscard]] bool any_seen() const { return any_seen_; }
+  [[nodiscard]] bool any_hidden() const { return any_hidden_; }
+  /// The part seen lies on the side of a piece that is not `blocked`.  Pieces of several
+  /// lines may coincide.
+  [[nodiscard]] const std::vector<LinePiece>& pieces() const { return pieces_; }
+  /// The first line of cuts of blockers with the plane, cut i being of face cut_face(i).
+  [[nodiscard]] int first_cut_line() const { return first_cut_line_; }
+  [[nodiscard]] int cut_face(int i) const { return cut_faces_[i]; }
+  /// The horizon's line; -1 where it does not cross the plane's faces.
+  [[nodiscard]] int horizon_line() const { return horizon_line_; }
+
+ private:
+  // A shade over a line, or beside it, between two positions.
+  struct Cover {
+    LineCut from, to;
+    bool left, right;  // sides of the line on which the shade is
+    bool is_source;
+    bool own;  // the line is one of the shade's own
+  };
+  struct Line {
+    int line;
+    std::vector<int> shades;  // of which it is a side; ascending
+  };
+  // Between two neighbouring positions, on the left and on the right.
+  struct Beside {
+    std::array<int, 2> source{}, hidden{}, own{};
+  };
+
+  void prepare(const Question& question);
+  void add_horizon(std::vector<ExactPoint>& points,
+                   std::vector<std::array<int, 2>>& lines);
+  [[nodiscard]] bool horizon_hides_all() const;
+  void ask_star();
+  void find_shades(const std::vector<Blocker>& blockers, int first_cut_point);
+  [[nodiscard]] bool apart(const Shade& shade, const Shade& of_source) const;
+  [[nodiscard]] bool covers_all(const Shade& shade) const;
+  [[nodiscard]] std::vector<Line> lines_to_ask() const;
+  void view(const Line& line);
+  [[nodiscard]] std::optional<Cover> cover(const std::array<int, 2>& ends,
+                                           const LineCuts& cuts,
+                                           const Shade& shade) const;
+  [[nodiscard]] std::optional<Cover> below_horizon(int line, const LineCuts& cuts) const;
+  [[nodiscard]] std::array<bool, 2> into_material(int line, const LineCuts& cuts,
+                                                  const LineCut& from,
+                                                  const LineCut& to) const;
+
+  Question question_;
+  ViewScene scene_;
+  std::optional<EyeSpace> eye_;
+  std::vector<Shade> shades_;  // of the source first
+  std::size_t source_shades_ = 0;
+  int first_cut_line_ = 0, horizon_line_ = -1;
+  std::vector<int> cut_faces_;
+  bool ask_star_ = false;  // sight into material is free for a part of the source only
+  bool any_seen_ = false, any_hidden_ = false;
+  std::vector<LinePiece> pieces_;
+  std::vector<Cover> covers_;  // scratch
+};
+
+}  // namespace sightline::internal

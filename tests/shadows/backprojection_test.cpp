@@ -1,0 +1,165 @@
+#include "shadows/backprojection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shadows/point_form_factor.h"
+#include "tests/support/add_box.h"
+
+namespace sightline {
+namespace {
+
+using testing::add_box;
+
+// A group of one polygon.
+void add_polygon(PolygonSoup& soup, const char* name, const std::vector<Point>& corners) {
+  std::vector<int> polygon;
+  for (const Point& p : corners) {
+    polygon.push_back(static_cast<int>(soup.vertices.size()));
+    soup.vertices.push_back(p);
+  }
+  soup.groups.push_back({name, {static_cast<int>(soup.polygons.size())}});
+  soup.polygons.push_back(polygon);
+}
+
+// A square of side 2 that shines down.
+void add_lamp(PolygonSoup& soup, double height) {
+  add_polygon(soup, "lamp",
+              {{-1, -1, height}, {-1, 1, height}, {1, 1, height}, {1, -1, height}});
+}
+
+const std::array<Point, 4> kLamp{Point{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}};
+
+struct Lit {
+  explicit Lit(PolygonSoup soup, const std::vector<std::string>& light = {"lamp"})
+      : scene(std::move(soup)), index(scene, light_source(scene, light)) {}
+  [[nodiscard]] Backprojection at(const Point& p) const {
+    return index.from(shadow_point(p, {0, 0, 1}), {.gradient = true, .boundaries = true});
+  }
+  Scene scene;
+  BackprojectionIndex index;
+};
+
+TEST(Backprojection, OpenLampIsLit) {
+  PolygonSoup soup;
+  add_lamp(soup, 4);
+  const Lit lit(soup);
+  const Backprojection seen = lit.at({0.5, 2, 0});
+  EXPECT_EQ(seen.shadow, ShadowClass::Lit);
+  EXPECT_EQ(seen.visible_fraction, 1);
+  EXPECT_NEAR(*seen.form_factor, point_form_factor({0.5, 2, 0}, {0, 0, 1}, kLamp), 1e-15);
+  ASSERT_EQ(seen.boundaries.size(), 1u);
+  EXPECT_EQ(seen.boundaries[0].sides.size(), 4u);
+  // Behind the lamp and in its plane all is umbra.
+  EXPECT_EQ(lit.at({0, 0, 5}).shadow, ShadowClass::Umbra);
+  EXPECT_EQ(lit.at({3, 0, 4}).shadow, ShadowClass::Umbra);
+}
+
+TEST(Backprojection, BoxHidesAPart) {
+  PolygonSoup soup;
+  add_lamp(soup, 4);
+  add_box(soup, "box", {-8, -8, 1}, {0, 8, 2});
+  const Lit lit(soup);
+  // Below its middle: umbra; to the right: half of the lamp, for x = 0 runs under the
+  // edge at x = 0.
+  EXPECT_EQ(lit.at({-4, 0, 0}).shadow, ShadowClass::Umbra);
+  EXPECT_EQ(lit.at({6, 0, 0}).shadow, ShadowClass::Lit);
+  const Backprojection half = lit.at({0, 0, 0});
+  EXPECT_EQ(half.shadow, ShadowClass::Penumbra);
+  EXPECT_NEAR(half.visible_fraction, 0.5, 1e-15);
+  EXPECT_NEAR(
+      *half.form_factor,
+      point_form_factor({0, 0, 0}, {0, 0, 1},
+                        std::vector<Point>{{0, -1, 4}, {0, 1, 4}, {1, 1, 4}, {1, -1, 4}}),
+      1e-15);
+  // The line from x = 1/4 over the edge at height 2 meets the lamp at x = -1/4.
+  const Backprojection more = lit.at({0.25, 0, 0});
+  EXPECT_NEAR(more.visible_fraction, 0.625, 1e-15);
+  ASSERT_EQ(more.boundaries.size(), 1u);
+  EXPECT_EQ(more.boundaries[0].sides.size(), 4u);
+}
+
+TEST(Backprojection, GradientEqualsDifferences) {
+  PolygonSoup soup;
+  add_lamp(soup, 4);
+  add_box(soup, "box", {-0.5, -0.25, 1}, {0.5, 0.75, 2});
+  add_polygon(soup, "sheet", {{0.5, -1, 3}, {1, 0.5, 2.5}, {2, -1, 3}});
+  const Lit lit(soup);
+  const Point p{0.3, -0.4, 0.125};
+  const Backprojection seen = lit.at(p);
+  ASSERT_TRUE(seen.gradient.has_value());
+  EXPECT_EQ(seen.shadow, ShadowClass::Penumbra);
+  const double h = 0x1p-10;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto f = [&](double steps) {
+      Point q = p;
+      q[axis] += steps * h;
+      return *lit.at(q).form_factor;
+    };
+    const double slope = (8 * (f(1) - f(-1)) - (f(2) - f(-2))) / (12 * h);
+    EXPECT_NEAR((*seen.gradient)[axis], slope, 1e-9) << axis;
+  }
+}
+
+TEST(Backprojection, HoleOfNextToNothingIsPenumbra) {
+  PolygonSoup soup;
+  add_lamp(soup, 4);
+  const double gap = 0x1p-69;
+  add_polygon(soup, "left", {{-9, -9, 2}, {0, -9, 2}, {0, 9, 2}, {-9, 9, 2}});
+  add_polygon(soup, "right", {{gap, -9, 2}, {9, -9, 2}, {9, 9, 2}, {gap, 9, 2}});
+  const Lit lit(soup);
+  const Backprojection seen = lit.at({0, 0, 0});
+  EXPECT_EQ(seen.shadow, ShadowClass::Penumbra);
+  EXPECT_NEAR(seen.visible_fraction / gap, 1, 1e-12);
+  EXPECT_NEAR(*seen.form_factor / gap, 1, 1);
+  EXPECT_GT(*seen.form_factor, 0);
+  soup.vertices[8].x() = soup.vertices[11].x() = 0;
+  EXPECT_EQ(Lit(soup).at({0, 0, 0}).shadow, ShadowClass::Umbra);
+}
+
+TEST(Backprojection, HorizonCutsTheLamp) {
+  PolygonSoup soup;
+  add_lamp(soup, 4);
+  const Lit lit(soup);
+  // Below the horizon of a normal along x is what lies at x < 0.
+  const Backprojection seen =
+      lit.index.from(shadow_point({0, 0, 0}, {3, 0, 0}), {.boundaries = true});
+  EXPECT_EQ(seen.shadow, ShadowClass::Penumbra);
+  EXPECT_NEAR(seen.visible_fraction, 0.5, 1e-15);
+  ASSERT_EQ(seen.boundaries.size(), 1u);
+  EXPECT_EQ(seen.boundaries[0].sides.size(), 4u);
+  EXPECT_NEAR(*seen.form_factor, point_form_factor({0, 0, 0}, {1, 0, 0}, kLamp), 1e-15);
+}
+
+TEST(Backprojection, BlockerThatCutsTheLamp) {
+  PolygonSoup soup;
+  add_lamp(soup, 4);
+  add_box(soup, "box", {-0.5, -0.5, 3}, {0.5, 0.5, 5});
+  const Lit lit(soup);
+  const Backprojection seen = lit.at({0, 0, 0});
+  EXPECT_NEAR(seen.visible_fraction, 1 - (4. / 3) * (4. / 3) / 4, 1e-15);
+  ASSERT_EQ(seen.boundaries.size(), 2u);
+  // From the side the foot of the box is seen, where its face cuts the lamp.
+  const Backprojection foot = lit.at({8, 0, 0});
+  bool cut = false;
+  for (const SeenBoundary& boundary : foot.boundaries) {
+    for (const auto& side : boundary.sides) cut |= side[0].kind == SeenSide::Kind::Cut;
+  }
+  EXPECT_TRUE(cut);
+}
+
+TEST(Backprojection, PartsOfAWallCountOnceAndTheirJointsAreNoSides) {
+  PolygonSoup soup;
+  add_polygon(soup, "a", {{-1, -1, 4}, {-1, 1, 4}, {0, 1, 4}, {0, -1, 4}});
+  add_polygon(soup, "b", {{-0.5, -1, 4}, {-0.5, 1, 4}, {1, 1, 4}, {1, -1, 4}});
+  const Lit lit(soup, {"a", "b"});
+  const Backprojection seen = lit.at({0.5, 2, 0});
+  EXPECT_EQ(seen.shadow, ShadowClass::Lit);
+  EXPECT_NEAR(*seen.form_factor, point_form_factor({0.5, 2, 0}, {0, 0, 1}, kLamp), 1e-15);
+  ASSERT_EQ(seen.boundaries.size(), 1u);
+  EXPECT_EQ(seen.boundaries[0].sides.size(), 4u);
+}
+
+}  // namespace
+}  // namespace sightline
