@@ -20,8 +20,9 @@ struct Corner {
   int plate;
 };
 
-/// Corners and sides of sender, target and shading blockers, each once.
+/// Corners and sides of sender, target and shading blockers in the shaft, each once.
 struct Elements {
+  const ExchangeGeometry& g;
   std::vector<Corner> corners;
   std::vector<Side> sides;
 
@@ -29,15 +30,25 @@ struct Elements {
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Vector& a = polygon[i];
       const Vector& b = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-      if (std::ranges::none_of(corners, [&](const Corner& c) { return c.at == a; })) {
-        corners.push_back({a, plate});
-      }
+      if (plate >= 0 && !g.in_shaft(a, b)) continue;
+      add_corner(plate, a);
+      add_corner(plate, b);
       if (std::ranges::none_of(sides, [&](const Side& s) {
             return (s.a == a && s.b == b) || (s.a == b && s.b == a);
           })) {
         sides.push_back({a, b, plate});
       }
     }
+  }
+  void add_corner(int plate, const Vector& a) {
+    constexpr double kSlack = 1e-10;
+    if (std::ranges::any_of(corners, [&](const Corner& c) { return c.at == a; })) return;
+    if (std::ranges::any_of(g.shaft, [&](const Eigen::Vector4d& plane) {
+          return plane.head<3>().dot(a) + plane[3] > kSlack;
+        })) {
+      return;
+    }
+    corners.push_back({a, plate});
   }
 };
 
@@ -266,7 +277,7 @@ void add_crossing(const ContourPiece& piece, double at_start, double at_end,
 }  // namespace
 
 std::vector<double> contour_events(const ExchangeGeometry& g, const ContourPiece& piece) {
-  Elements elements;
+  Elements elements{g, {}, {}};
   elements.add(-1, in_space(g.sender));
   if (!piece.on_target) elements.add(-2, g.target.corners);
   for (const int b : piece.shading) elements.add(b, g.blockers[b].corners);

@@ -53,9 +53,12 @@ ExchangeArea exchange_area(std::span<const Point> sender, std::span<const Point>
   constexpr double kKinkCaution = 20;
   constexpr int kMostCuts = 20000;
 
-  ContourIntegrand integrand(g);
   const double rounding = rounding_error(g);
   const double wanted = tolerance / scale;
+  ContourIntegrand integrand(g);
+  // Between events the function is smooth, and a rule of few nodes does for few digits.
+  constexpr double kCoarse = 1e-10;
+  const bool coarse = wanted > kCoarse * std::abs(doubled_area(g.sender));
   const auto sum =
       integrate_adaptively(first_intervals(g), std::max(wanted - rounding, 0.5 * wanted),
                            kMostCuts, [&](int p, double from, double to) {
@@ -68,7 +71,8 @@ ExchangeArea exchange_area(std::span<const Point> sender, std::span<const Point>
                                smooth = smooth && structure == integrand.structure();
                                return value;
                              };
-                             IntegralEstimate estimate = kronrod(kKronrod15, from, to, f);
+                             IntegralEstimate estimate = coarse ? kronrod(kKronrod7, from, to, f)
+                                           : kronrod(kKronrod15, from, to, f);
                              if (!smooth) estimate.error *= kKinkCaution;
                              return estimate;
                            });

@@ -205,7 +205,12 @@ class PieceMaker {
   [[nodiscard]] const Plate& plate_at(int p) const {
     return p == target_ ? g_.target : g_.blockers[p];
   }
-  void add_side(int plate, const Vector& a, const Vector& b) {
+  void add_side(int plate, Vector a, Vector b) {
+    const auto part = g_.in_shaft(a, b);
+    if (!part) return;
+    const Vector whole = b - a, first = a;
+    if ((*part)[1] < 1) b = first + (*part)[1] * whole;
+    if ((*part)[0] > 0) a = first + (*part)[0] * whole;
     // Of what lies in the sender's plane only the target's own side bounds what is seen:
     // there the target ends at the horizon.
     on_ground_ = a.z() <= 0 && b.z() <= 0;
@@ -316,7 +321,56 @@ class PieceMaker {
   bool on_ground_ = false;
 };
 
+// ---- the shaft ------------------------------------------------------------------------
+
+void add_shaft_planes(const std::vector<Vector>& a, const std::vector<Vector>& b,
+                      std::vector<Eigen::Vector4d>& planes) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Vector side = a[(i + 1) % a.size()] - a[i];
+    for (const Vector& q : b) {
+      Vector n = side.cross(q - a[i]);
+      const double length = n.norm();
+      if (length <= kTouching) continue;
+      n /= length;
+      double low = 0, high = 0;
+      for (const std::vector<Vector>* points : {&a, &b}) {
+        for (const Vector& x : *points) {
+          const double h = n.dot(x - a[i]);
+          low = std::min(low, h);
+          high = std::max(high, h);
+        }
+      }
+      if (low >= -kTouching) n = -n;
+      if (low >= -kTouching || high <= kTouching) {
+        planes.emplace_back(n.x(), n.y(), n.z(), -n.dot(a[i]));
+      }
+    }
+  }
+}
+
+void find_shaft(ExchangeGeometry& g) {
+  std::vector<Vector> sender;
+  for (const PlanePoint& p : g.sender) sender.emplace_back(p.x, p.y, 0);
+  add_shaft_planes(sender, g.target.corners, g.shaft);
+  add_shaft_planes(g.target.corners, sender, g.shaft);
+}
+
 }  // namespace
+
+std::optional<std::array<double, 2>> ExchangeGeometry::in_shaft(const Vector& a,
+                                                               const Vector& b) const {
+  constexpr double kSlack = 1e-10;
+  double from = 0, to = 1;
+  for (const Eigen::Vector4d& plane : shaft) {
+    const double ha = plane.head<3>().dot(a) + plane[3] - kSlack;
+    const double hb = plane.head<3>().dot(b) + plane[3] - kSlack;
+    if (ha >= 0 && hb >= 0) return std::nullopt;
+    if (ha > 0) from = std::max(from, ha / (ha - hb));
+    if (hb > 0) to = std::min(to, ha / (ha - hb));
+  }
+  if (!(from < to)) return std::nullopt;
+  return std::array{from, to};
+}
 
 std::array<Point, 3> spanning_corners(std::span<const Point> polygon) {
   // From the first corner, the largest triangle of a fan, its third corner then moved.
@@ -357,6 +411,7 @@ ExchangeGeometry exchange_geometry(std::span<const Point> sender,
     Plate plate = importer.clipped(blocker);
     if (plate.corners.size() >= 3) g.blockers.push_back(std::move(plate));
   }
+  find_shaft(g);
   PieceMaker(g).make();
   return g;
 }

@@ -9,7 +9,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,7 +55,15 @@ struct ExchangeGeometry {
   PlanePolygon sender;          ///< in z = 0, before the target's front
   Plate target;                 ///< above z = 0
   std::vector<Plate> blockers;  ///< above z = 0 and before the target's front
+  /// Half-spaces that hold all segments between sender and target: (n, c) with
+  /// n . x + c <= 0 there, n of length 1, but for rounding.
+  std::vector<Eigen::Vector4d> shaft;
   std::vector<ContourPiece> pieces;
+
+  /// The part of the segment in the shaft, from 0 to 1, with slack; nothing where it has
+  /// none.
+  [[nodiscard]] std::optional<std::array<double, 2>> in_shaft(
+      const Eigen::Vector3d& a, const Eigen::Vector3d& b) const;
 
   /// Neither surface lies before the other's front: nothing is exchanged.
   [[nodiscard]] bool nothing() const {

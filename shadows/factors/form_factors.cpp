@@ -32,7 +32,7 @@ class Matrix {
  public:
   Matrix(const Scene& scene, std::span<const FormFactorSurface> surfaces,
          const FormFactorRequest& request)
-      : accuracy_(request.accuracy),
+      : accuracy_(request.accuracy / kMargin),
         scene_(factor_scene(scene, surfaces)),
         blockers_(scene, scene_.blockers) {
     for (const FactorSide& s : scene_.sides) sides_.emplace_back(s);
@@ -54,6 +54,10 @@ class Matrix {
   }
 
  private:
+  /// Entries are asked for so much more exactly than told, so that the sums of rows are
+  /// as exact as entries.
+  static constexpr double kMargin = 8;
+
   void add_entry(PairFactor& pairs, int i, int j, RowPart& part) const {
     std::vector<std::pair<int, int>> facing_pairs;
     for (int s = first_[i]; s < first_[i + 1]; ++s) {
