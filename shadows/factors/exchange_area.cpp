@@ -1,0 +1,84 @@
+#include "shadows/factors/exchange_area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "shadows/factors/adaptive_integral.h"
+#include "shadows/factors/contour_events.h"
+#include "shadows/factors/contour_integrand.h"
+#include "shadows/factors/exchange_geometry.h"
+
+namespace sightline::internal {
+namespace {
+
+/// From event to event.
+std::vector<Interval> first_intervals(const ExchangeGeometry& g) {
+  std::vector<Interval> intervals;
+  for (std::size_t p = 0; p < g.pieces.size(); ++p) {
+    double from = 0;
+    for (const double s : contour_events(g, g.pieces[p])) {
+      intervals.push_back({static_cast<int>(p), from, s, {}});
+      from = s;
+    }
+    intervals.push_back({static_cast<int>(p), from, g.pieces[p].length, {}});
+  }
+  return intervals;
+}
+
+/// What rounding may do: each value of the integrand is a sum over the boundary of a part
+/// of the sender.
+double rounding_error(const ExchangeGeometry& g) {
+  double boundary = 0, lines = 0;
+  for (std::size_t i = 0; i < g.sender.size(); ++i) {
+    const PlanePoint& a = g.sender[i];
+    const PlanePoint& b = g.sender[(i + 1) % g.sender.size()];
+    boundary += std::hypot(b.x - a.x, b.y - a.y);
+  }
+  for (const ContourPiece& piece : g.pieces) lines += piece.length;
+  return 2e-16 * boundary * lines;
+}
+
+}  // namespace
+
+ExchangeArea exchange_area(std::span<const Point> sender, std::span<const Point> target,
+                           std::span<const std::span<const Point>> blockers,
+                           double tolerance) {
+  const ExchangeGeometry g = exchange_geometry(sender, target, blockers);
+  ExchangeArea result;
+  if (g.nothing()) return result;
+  const double scale = g.unit * g.unit;
+  // Where the function has a kink inside, two rules may agree by chance.
+  constexpr double kKinkCaution = 20;
+  constexpr int kMostCuts = 20000;
+
+  const double rounding = rounding_error(g);
+  const double wanted = tolerance / scale;
+  ContourIntegrand integrand(g);
+  // Between events the function is smooth, and a rule of few nodes does for few digits.
+  constexpr double kCoarse = 1e-10;
+  const bool coarse = wanted > kCoarse * std::abs(doubled_area(g.sender));
+  const auto sum =
+      integrate_adaptively(first_intervals(g), std::max(wanted - rounding, 0.5 * wanted),
+                           kMostCuts, [&](int p, double from, double to) {
+                             std::uint64_t structure = 0;
+                             bool smooth = true;
+                             const auto f = [&](double s) {
+                               ++result.evaluations;
+                               const double value = integrand.at(g.pieces[p], s);
+                               if (structure == 0) structure = integrand.structure();
+                               smooth = smooth && structure == integrand.structure();
+                               return value;
+                             };
+                             IntegralEstimate estimate = coarse ? kronrod(kKronrod7, from, to, f)
+                                           : kronrod(kKronrod15, from, to, f);
+                             if (!smooth) estimate.error *= kKinkCaution;
+                             return estimate;
+                           });
+  result.value = scale * sum.value;
+  result.error = scale * (sum.error + rounding);
+  return result;
+}
+
+}  // namespace sightline::internal

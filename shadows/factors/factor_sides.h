@@ -1,0 +1,46 @@
+// A scene as form factors see it: sides of faces that send out and receive, what else may
+// be met, what blocks, and the windows through which the rest leaves.
+
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "linespace/scene.h"
+#include "linespace/scene/solid_index.h"
+#include "shadows/factors/convex_merge.h"
+#include "shadows/form_factors.h"
+
+namespace sightline::internal {
+
+/// A convex polygon that sends out and receives by its front.
+struct FactorSide {
+  PointList polygon;
+  /// A surface's number, or one of the below.
+  int of;
+};
+
+/// What a direction meets first, where it meets no surface.
+enum Elsewhere : int { kOthers = -1, kBacks = -2, kOutside = -3 };
+
+struct FactorScene {
+  std::vector<double> areas;          ///< of the surfaces
+  std::vector<double> buried;         ///< of them: at once inside a closed object
+  std::vector<double> leaving;        ///< of them: on the scene's box, facing out
+  std::vector<FactorSide> sides;      ///< of the surfaces, in their order
+  std::vector<FactorSide> elsewhere;  ///< fronts, backs and windows
+  std::vector<PointList> blockers;
+  double coincident_area = 0;
+};
+
+[[nodiscard]] FactorScene factor_scene(const Scene& scene,
+                                       std::span<const FormFactorSurface> surfaces);
+
+/// The corners of a face, counter-clockwise as seen from the side on which the file lists
+/// it so, or from the other one.
+[[nodiscard]] PointList listed_polygon(const Scene& scene, int face, bool back);
+
+[[nodiscard]] double area_of(std::span<const Point> polygon);
+
+}  // namespace sightline::internal

@@ -1,0 +1,66 @@
+#include "shadows/factors/pair_factor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "linespace/polygon_visibility.h"
+
+namespace sightline::internal {
+namespace {
+
+/// The part of a convex polygon on or before a plane; corners that are found are rounded.
+PointList before(const PlaneSide& plane, const PointList& polygon) {
+  PointList part;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Point &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const Sign sa = plane(a), sb = plane(b);
+    if (sa != Sign::Negative) part.push_back(a);
+    if (sa * sb == Sign::Negative) {
+      const double ha = plane.value(a).value, hb = plane.value(b).value;
+      part.push_back(a + ha / (ha - hb) * (b - a));
+    }
+  }
+  return part;
+}
+
+}  // namespace
+
+ExchangeArea PairFactor::of(const PreparedSide& a, const PreparedSide& b,
+                            double tolerance) {
+  ++counts_.pairs;
+  blockers_.between(a, b, between_);
+  polygons_.clear();
+  if (between_.empty()) {
+    ++counts_.open;
+    return exchange_area(a.polygon, b.polygon, polygons_, tolerance);
+  }
+  if (blockers_.hidden_by_one(a, b, between_)) return {};
+  for (const int i : between_) polygons_.push_back(blockers_.polygon(i));
+  ++counts_.partial;
+  ExchangeArea result = exchange_area(a.polygon, b.polygon, polygons_, tolerance);
+  counts_.evaluations += result.evaluations;
+  // Below this, what was found may be rounding.
+  constexpr double kSmall = 1e-12;
+  if (result.value <= kSmall * std::min(a.area, b.area)) decide(a, b, result);
+  return result;
+}
+
+void PairFactor::decide(const PreparedSide& a, const PreparedSide& b, ExchangeArea& sum) {
+  constexpr int kCuts = 4;
+  if (blockers_.hidden_by_parts(a.polygon, b.polygon, between_, kCuts)) {
+    sum = {};
+    return;
+  }
+  ++counts_.decided;
+  VisibilityQuestion question{before(b.plane, a.polygon), before(a.plane, b.polygon), {}};
+  for (const int i : between_) question.occluders.push_back(blockers_.polygon(i));
+  const VisibilityAnswer answer = polygon_visibility(question);
+  if (answer.verdict == Verdict::Hidden) sum = {};
+  if (answer.verdict == Verdict::Visible && sum.value <= 0) {
+    // An opening less than what can be told.
+    sum.value = std::numeric_limits<double>::min();
+  }
+}
+
+}  // namespace sightline::internal

@@ -1,0 +1,108 @@
+// Form factors of a scene: which share of what a surface sends out arrives where.
+//
+// The form factor from surface i to surface j is the share of the power that i sends
+// out, each of its points evenly (as a Lambertian emitter), that reaches j with nothing
+// in between.  What blocks, what fronts are, and where the rest goes is defined in
+// docs/form_factors.md, together with which part of the error bounds is proved.
+//
+//   const std::vector<FormFactorSurface> surfaces = surfaces_of_groups(scene, {});
+//   const FormFactors f = form_factors(scene, surfaces, {.accuracy = 1e-6});
+//   std::cout << f.at(0, 1) << " +- " << f.error_bound << '\n';
+//
+// Neighbours: polygon_form_factor.h for two polygons with nothing in between;
+// point_form_factor.h for a point and a polygon; backprojection.h for a point and a light
+// among blockers.
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "linespace/point_view.h"
+#include "linespace/predicates.h"
+#include "linespace/request.h"
+#include "linespace/scene.h"
+
+namespace sightline {
+
+/// Faces that send out and receive by one of their sides.
+struct FormFactorSurface {
+  std::string name;
+  std::vector<int> faces;  ///< scene faces, ascending
+  /// By the side on which the file lists them clockwise.
+  bool back = false;
+};
+
+/// The groups of these names, or `#i-j` (Scene::faces_named); no names: all objects.
+/// each_face: a surface for every polygon of the file among them, named GROUP/number.
+/// Those of both_sides have a second surface behind them, their back: GROUP/back.  Throws
+/// InvalidInput for a name that does not exist.
+struct SurfaceWish {
+  std::vector<std::string> groups, both_sides;
+  bool each_face = false;
+};
+[[nodiscard]] std::vector<FormFactorSurface> surfaces_of(const Scene& scene,
+                                                         const SurfaceWish& wish);
+
+struct FormFactorRequest : Request {
+  /// Largest error of an entry, others, outside and backs included.
+  double accuracy = 1e-10;
+  /// Sky: the part of what leaves the scene within 90 degrees of this direction.
+  std::optional<Eigen::Vector3d> up;
+};
+
+/// One row: where goes what surface i sends out?
+struct FormFactorRow {
+  std::vector<int> to;         ///< surfaces with an entry that is not 0, ascending
+  std::vector<double> factor;  ///< of these
+  double others = 0;           ///< fronts of faces that are of no surface
+  double outside = 0;          ///< nothing: it leaves the scene
+  double backs = 0;            ///< backs of faces, and the inside of solids at once
+  double sky = 0;              ///< the part of outside that leaves upwards
+};
+
+struct FormFactors {
+  std::vector<std::string> names;
+  std::vector<double> areas;  ///< scene units squared
+  /// Rows that were done, from the first on; all unless the budget ended.
+  std::vector<FormFactorRow> rows;
+  /// No entry is further off than this.
+  double error_bound = 0;
+  /// Of fronts that lie on one another: row sums are larger than 1 there.
+  double coincident_area = 0;
+  bool complete = true;
+  std::int64_t pairs = 0;    ///< that were looked at
+  std::int64_t open = 0;     ///< with nothing in between
+  std::int64_t partial = 0;  ///< integrated among blockers
+  StageCounts predicates;
+
+  [[nodiscard]] double at(int from, int to) const;
+  /// Of the row's entries, without others, outside and backs.
+  [[nodiscard]] double row_sum(int from) const;
+};
+
+/// Nothing is normalised, symmetrised or clamped.  A hidden pair is exactly 0, and one
+/// that sees through an opening of any width is not.  Heard of the request: accuracy, up,
+/// threads, budget, progress and stop.  Throws Stopped before there is a row.
+[[nodiscard]] FormFactors form_factors(const Scene& scene,
+                                       std::span<const FormFactorSurface> surfaces,
+                                       const FormFactorRequest& request = {});
+
+/// Where goes what an element of surface at a point sends out?
+struct PointFactors {
+  std::vector<double> factors;  ///< to each surface
+  double others = 0, outside = 0, backs = 0, sky = 0;
+};
+
+/// Exact but for rounding: within 1e-12.  normal: of any length but 0.
+/// Throws InvalidInput for a point that PointViewIndex refuses.
+[[nodiscard]] PointFactors point_factors(const PointViewIndex& index, const Scene& scene,
+                                         std::span<const FormFactorSurface> surfaces,
+                                         const Viewpoint& eye,
+                                         const Eigen::Vector3d& normal,
+                                         const FormFactorRequest& request = {});
+
+}  // namespace sightline
