@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "shadows/planar/arc_box.h"
+#include "shadows/curves/arc_box.h"
 
 namespace sightline::internal {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "shadows/planar/ball_roots.h"
+#include "shadows/curves/ball_roots.h"
 
 namespace sightline::internal {
 namespace {

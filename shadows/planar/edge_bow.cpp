@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "shadows/planar/arc_box.h"
+#include "shadows/curves/arc_box.h"
 
 namespace sightline::internal {
 namespace {

@@ -6,9 +6,9 @@
 #include <map>
 #include <numeric>
 
+#include "linespace/picture/classes.h"
 #include "shadows/planar/candidate_pairs.h"
 #include "shadows/planar/half_edge_order.h"
-#include "shadows/planar/union_find.h"
 
 namespace sightline::internal {
 namespace {
@@ -113,9 +113,9 @@ class MapBuilder {
     positions_.resize(arc_count());
     std::vector<std::vector<std::array<int, 2>>> same(arc_count());
     in_parallel(arc_count(), [&](std::size_t a) { sort_entries(a, same[a]); });
-    points_at_ = std::make_unique<UnionFind>(static_cast<std::size_t>(points_));
+    points_at_ = std::make_unique<Classes>(static_cast<std::size_t>(points_));
     for (const auto& pairs : same) {
-      for (const auto& [i, j] : pairs) points_at_->unite(i, j);
+      for (const auto& [i, j] : pairs) points_at_->join(i, j);
     }
   }
 
@@ -158,7 +158,7 @@ class MapBuilder {
     std::vector<int> number(static_cast<std::size_t>(points_), -1);
     for (std::size_t a = 0; a < arc_count(); ++a) {
       for (const int point : point_of_position_[a]) {
-        int& n = number[points_at_->find(point)];
+        int& n = number[points_at_->root(point)];
         if (n < 0) n = vertex_count_++;
         vertex_of_[a].push_back(n);
       }
@@ -293,7 +293,7 @@ class MapBuilder {
   std::vector<std::vector<int>> point_of_position_{arc_count()};
   std::vector<std::vector<int>> corners_{arc_count()};
   std::vector<std::vector<int>> vertex_of_;  // of a position
-  std::unique_ptr<UnionFind> points_at_;
+  std::unique_ptr<Classes> points_at_;
   int points_ = 0;
   int vertex_count_ = 0;
   std::vector<MapEdge> edges_;

@@ -5,9 +5,9 @@
 #include <memory>
 #include <numeric>
 
+#include "linespace/picture/classes.h"
 #include "linespace/scene.h"
 #include "shadows/planar/scan_line.h"
-#include "shadows/planar/union_find.h"
 
 namespace sightline::internal {
 namespace {
@@ -22,7 +22,7 @@ class FaceFinder {
   void run() {
     link();
     trace();
-    for (const MapEdge& e : map_.edges) components_.unite(e.ends[0], e.ends[1]);
+    for (const MapEdge& e : map_.edges) components_.join(e.ends[0], e.ends[1]);
     nest();
     number();
   }
@@ -54,12 +54,12 @@ class FaceFinder {
   // For each connected component: the boundary that faces the outside of the component,
   // and what lies there.
   void nest() {
-    faces_ = std::make_unique<UnionFind>(first_.size() + 1);
+    faces_ = std::make_unique<Classes>(first_.size() + 1);
     std::vector<int> best(map_.vertices.size(), -1);
     std::vector<double> most(map_.vertices.size(), -1);
     // The edge of each component that spans most scan lines.
     for (const int e : all_edges_) {
-      const int c = components_.find(map_.edges[e].ends[0]);
+      const int c = components_.root(map_.edges[e].ends[0]);
       if (const double span = extent(e); span > most[c]) {
         most[c] = span;
         best[c] = e;
@@ -129,11 +129,11 @@ class FaceFinder {
   // whatever else lies in it before the component, up to its outer boundary.
   bool place(int e, std::vector<ScanHit> hits) {
     if (!sort(hits)) return false;
-    const int component = components_.find(map_.edges[e].ends[0]);
+    const int component = components_.root(map_.edges[e].ends[0]);
     int before = plane();
     for (const ScanHit& h : hits) {
-      faces_->unite(before, cycle_[h.half_edge]);
-      if (components_.find(map_.edges[h.half_edge >> 1].ends[0]) == component) {
+      faces_->join(before, cycle_[h.half_edge]);
+      if (components_.root(map_.edges[h.half_edge >> 1].ends[0]) == component) {
         outward_[cycle_[h.half_edge]] = true;
         return true;
       }
@@ -145,17 +145,17 @@ class FaceFinder {
   // Which boundaries are outside of the outline.
   [[nodiscard]] std::vector<char> outside() {
     std::vector<char> is_outside(first_.size() + 1, 0);
-    is_outside[faces_->find(plane())] = 1;
+    is_outside[faces_->root(plane())] = 1;
     for (const int e : all_edges_) {
       const MapEdge& edge = map_.edges[e];
       if (!edge.outline) continue;
       const int inner = 2 * e + (edge.inside_of_first ? 0 : 1);
-      is_outside[faces_->find(cycle_[inner ^ 1])] = 1;
+      is_outside[faces_->root(cycle_[inner ^ 1])] = 1;
     }
     for (std::size_t h = 0; h < cycle_.size(); ++h) {
       const MapEdge& edge = map_.edges[h >> 1];
       const bool outer = edge.outline && edge.inside_of_first == ((h & 1) == 1);
-      if (!outer && is_outside[faces_->find(cycle_[h])]) {
+      if (!outer && is_outside[faces_->root(cycle_[h])]) {
         throw InvalidInput("a curve of a planar map leaves the outline");
       }
     }
@@ -168,7 +168,7 @@ class FaceFinder {
     std::vector<int> number(first_.size() + 1, -1);
     map_.faces.clear();
     for (std::size_t c = 0; c < first_.size(); ++c) {
-      const int root = faces_->find(static_cast<int>(c));
+      const int root = faces_->root(static_cast<int>(c));
       if (is_outside[root]) continue;
       if (number[root] < 0) {
         number[root] = static_cast<int>(map_.faces.size());
@@ -183,17 +183,17 @@ class FaceFinder {
     }
     map_.face.resize(cycle_.size());
     for (std::size_t h = 0; h < cycle_.size(); ++h) {
-      map_.face[h] = number[faces_->find(cycle_[h])];
+      map_.face[h] = number[faces_->root(cycle_[h])];
     }
   }
 
   MapData& map_;
-  UnionFind components_;
+  Classes components_;
   std::vector<int> all_edges_;
-  std::vector<int> cycle_;            // of a half-edge
-  std::vector<int> first_;            // half-edge of a cycle
-  std::vector<char> outward_;         // of a cycle: it faces the outside of its component
-  std::unique_ptr<UnionFind> faces_;  // of cycles, and the plane
+  std::vector<int> cycle_;          // of a half-edge
+  std::vector<int> first_;          // half-edge of a cycle
+  std::vector<char> outward_;       // of a cycle: it faces the outside of its component
+  std::unique_ptr<Classes> faces_;  // of cycles, and the plane
 };
 
 }  // namespace

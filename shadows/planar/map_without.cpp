@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "linespace/picture/classes.h"
 #include "linespace/scene.h"
 #include "shadows/planar/map_faces.h"
 #include "shadows/planar/planar_map.h"
-#include "shadows/planar/union_find.h"
 
 namespace sightline::internal {
 namespace {
@@ -36,19 +36,19 @@ class Reduction {
   std::vector<int> edge_of;
 
   [[nodiscard]] std::vector<int> face_of() const {
-    UnionFind joined(old_.faces.size());
+    Classes joined(old_.faces.size());
     for (std::size_t e = 0; e < removed_.size(); ++e) {
-      if (removed_[e]) joined.unite(old_.face[2 * e], old_.face[2 * e + 1]);
+      if (removed_[e]) joined.join(old_.face[2 * e], old_.face[2 * e + 1]);
     }
     std::vector<int> of_set(old_.faces.size(), -1);
     for (std::size_t h = 0; h < old_.face.size(); ++h) {
       const int f = old_.face[h];
       if (removed_[h >> 1] || f < 0) continue;
-      of_set[joined.find(f)] = map_.face[2 * edge_of[h >> 1] + (h & 1)];
+      of_set[joined.root(f)] = map_.face[2 * edge_of[h >> 1] + (h & 1)];
     }
     std::vector<int> out(old_.faces.size());
     for (std::size_t f = 0; f < out.size(); ++f) {
-      out[f] = of_set[joined.find(static_cast<int>(f))];
+      out[f] = of_set[joined.root(static_cast<int>(f))];
     }
     return out;
   }

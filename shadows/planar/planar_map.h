@@ -25,7 +25,7 @@
 #include <vector>
 
 #include "shadows/planar/map_data.h"
-#include "shadows/planar/plane_curve.h"
+#include "shadows/curves/plane_curve.h"
 
 namespace sightline::internal {
 

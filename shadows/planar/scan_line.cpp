@@ -1,6 +1,6 @@
 #include "shadows/planar/scan_line.h"
 
-#include "shadows/planar/ball_roots.h"
+#include "shadows/curves/ball_roots.h"
 
 namespace sightline::internal {
 namespace {

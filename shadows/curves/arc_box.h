@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "shadows/planar/plane_arc.h"
+#include "shadows/curves/plane_arc.h"
 
 namespace sightline::internal {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "shadows/planar/exact_parameter.h"
-#include "shadows/planar/plane_curve.h"
-#include "shadows/planar/plane_support.h"
+#include "shadows/curves/exact_parameter.h"
+#include "shadows/curves/plane_curve.h"
+#include "shadows/curves/plane_support.h"
 
 namespace sightline::internal {
 

@@ -1,4 +1,4 @@
-#include "shadows/planar/ball_roots.h"
+#include "shadows/curves/ball_roots.h"
 
 #include <cmath>
 

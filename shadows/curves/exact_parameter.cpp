@@ -1,4 +1,4 @@
-#include "shadows/planar/exact_parameter.h"
+#include "shadows/curves/exact_parameter.h"
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
@@ -8,7 +8,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "shadows/planar/plane_curve.h"
+#include "shadows/curves/plane_curve.h"
 
 namespace sightline::internal {
 namespace {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "shadows/planar/exact_parameter.h"
+#include "shadows/curves/exact_parameter.h"
 
 namespace sightline::internal {
 

@@ -1,4 +1,4 @@
-#include "shadows/planar/arc_box.h"
+#include "shadows/curves/arc_box.h"
 
 #include <algorithm>
 
