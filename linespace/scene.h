@@ -124,6 +124,9 @@ struct Object {
 struct SceneOptions {
   /// Two faces whose planes differ by at most this angle (radians) share a flat edge.
   double flatness = 0;
+  /// Polygon numbers, ascending: as if these were not in the file.  All keep their
+  /// numbers, and groups their names.
+  std::vector<int> without = {};
 };
 
 /// Counts of the mesh's own edges, collinear ones not merged, by kind, with the fronts of
@@ -227,6 +230,12 @@ class Scene {
   std::vector<FaceSides> sides_;  // of faces
   std::vector<Hollow> hollows_;
 };
+
+/// The scene as if these objects, groups or polygon numbers `#i-j` were not in the file.
+/// Polygons keep their numbers, and objects their names.  Throws InvalidInput for a name
+/// that does not exist, and Stopped.
+[[nodiscard]] Scene scene_without(const Scene& scene, std::span<const std::string> names,
+                                  const Request& request = {});
 
 /// Faces of one object that meet in more than the corners and edges they share: for each
 /// polygon that meets another so, one defect of kind "self-touching", which names it and

@@ -34,6 +34,18 @@ struct ShadowPoint {
 /// A point of doubles.
 [[nodiscard]] ShadowPoint shadow_point(const Point& at);
 [[nodiscard]] ShadowPoint shadow_point(const Point& at, const Eigen::Vector3d& normal);
+/// The point moved along the normal of a polygon of the file exactly onto its plane, with
+/// that normal, towards where the file lists it counter-clockwise.  A polygon that
+/// rounding has bent counts by its first triangle.  Throws InvalidInput for a number that
+/// no polygon with an area has.
+[[nodiscard]] ShadowPoint shadow_point_on(const Scene& scene, int polygon,
+                                          const ExactPosition& at);
+/// The same for a face of the scene, on the side on which the file lists it
+/// counter-clockwise, or on the other.
+[[nodiscard]] ShadowPoint shadow_point_on_face(const Scene& scene, int face,
+                                               const ExactPosition& at, bool front);
+[[nodiscard]] ShadowPoint shadow_point_on_face(const Scene& scene, int face,
+                                               const Point& at, bool front);
 
 /// What to find besides the class, the fraction and the form factor.
 struct BackprojectionOptions {

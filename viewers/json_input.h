@@ -44,6 +44,10 @@ class JsonInput {
   /// An array of exactly two points, which differ.
   [[nodiscard]] std::array<Point, 2> two_points() const;
 
+  [[nodiscard]] bool is_null() const;
+  /// A whole number from 0 on that an int holds.
+  [[nodiscard]] int whole_number() const;
+
   /// "FILE: segments[3][0]".
   [[nodiscard]] std::string told() const;
   /// Throws InvalidInput with this message about this element.

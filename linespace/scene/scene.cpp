@@ -142,6 +142,8 @@ void SceneBuilder::make_faces() {
     stage.at(i, soup.polygons.size());
     const auto& polygon = soup.polygons[i];
     const int source = static_cast<int>(i);
+    if (std::binary_search(options.without.begin(), options.without.end(), source))
+      continue;
     const std::string name = "face " + std::to_string(source);
     if (polygon.size() < 3) {
       report("fewer than three corners",
@@ -332,6 +334,30 @@ std::vector<int> Scene::faces_named(const std::string& name) const {
   faces.insert(faces.end(), repeated.begin(), repeated.end());
   std::sort(faces.begin(), faces.end());
   return faces;
+}
+
+Scene scene_without(const Scene& scene, std::span<const std::string> names,
+                    const Request& request) {
+  PolygonSoup soup = scene.soup();
+  soup.defects.clear();
+  // Components keep the names that they have by now.
+  if (soup.groups.empty()) {
+    for (const Object& object : scene.objects()) {
+      PolygonSoup::Group& group = soup.groups.emplace_back();
+      group.name = object.name;
+      for (const int f : object.faces) {
+        if (group.faces.empty() || group.faces.back() != scene.faces()[f].source)
+          group.faces.push_back(scene.faces()[f].source);
+      }
+    }
+  }
+  SceneOptions options;
+  for (const std::string& name : names) {
+    for (const int f : scene.faces_named(name))
+      options.without.push_back(scene.faces()[f].source);
+  }
+  std::sort(options.without.begin(), options.without.end());
+  return Scene(std::move(soup), options, request);
 }
 
 }  // namespace sightline

@@ -32,6 +32,35 @@ ShadowPoint shadow_point(const Point& at, const Eigen::Vector3d& normal) {
   return {position(at), position(normal)};
 }
 
+ShadowPoint shadow_point_on(const Scene& scene, int polygon, const ExactPosition& at) {
+  const auto faces = scene.faces();
+  const auto face = std::ranges::find(faces, polygon, &Face::source);
+  if (face == faces.end()) {
+    throw InvalidInput("no polygon " + std::to_string(polygon) +
+                       " that has an area; the file has " +
+                       std::to_string(scene.soup().polygons.size()) + " polygons");
+  }
+  return shadow_point_on_face(scene, static_cast<int>(face - faces.begin()), at, true);
+}
+
+ShadowPoint shadow_point_on_face(const Scene& scene, int face, const Point& at,
+                                 bool front) {
+  return shadow_point_on_face(scene, face, position(at), front);
+}
+
+ShadowPoint shadow_point_on_face(const Scene& scene, int face, const ExactPosition& at,
+                                 bool front) {
+  const auto t = plane_points(scene, face);
+  const ExactPoint a = exact_point(scene.point(t[0])), p = exact_point(at);
+  ExactPoint n = exact_cross(exact_difference(exact_point(scene.point(t[1])), a),
+                             exact_difference(exact_point(scene.point(t[2])), a));
+  if (scene.turned(face) == front) n = {-n[0], -n[1], -n[2]};
+  const Rational off = exact_dot(n, exact_difference(p, a)) / exact_dot(n, n);
+  ExactPoint on = p;
+  for (int i = 0; i < 3; ++i) on[i] -= off * n[i];
+  return {exact_position(on), exact_position(n)};
+}
+
 struct BackprojectionIndex::Impl {
   Impl(const Scene& scene, const LightSource& light, const Request& request)
       : source(scene, light, request) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "linespace/files/input_file.h"
 #include "linespace/predicates.h"
@@ -86,6 +87,16 @@ Point JsonInput::point() const {
     }
   }
   return p;
+}
+
+bool JsonInput::is_null() const { return value_->is_null(); }
+
+int JsonInput::whole_number() const {
+  if (!value_->is_number_unsigned() ||
+      value_->get<std::uint64_t>() > std::numeric_limits<int>::max()) {
+    refuse("expected a whole number from 0 on");
+  }
+  return value_->get<int>();
 }
 
 std::array<std::string, 3> JsonInput::coordinates() const {

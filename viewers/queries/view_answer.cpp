@@ -144,24 +144,23 @@ int count(const PointView& view, MapVertexKind kind) {
   return static_cast<int>(std::ranges::count(view.vertices, kind, &MapVertex::kind));
 }
 
-Json asked_json(const ViewQuestion& question) {
-  const ExactPosition& at = question.eye.at;
-  Json asked = Json::array();
+Json asked_json(const ExactPosition& at, const std::array<std::string, 3>& asked) {
+  Json json = Json::array();
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::string& text = question.asked[axis];
+    const std::string& text = asked[axis];
     if (at.is_double[axis] && text.find('/') == std::string::npos) {
-      asked.push_back(at.nearest[static_cast<int>(axis)]);
+      json.push_back(at.nearest[static_cast<int>(axis)]);
     } else {
-      asked.push_back(text);
+      json.push_back(text);
     }
   }
-  return asked;
+  return json;
 }
 
 Json view_json(const Scene& scene, const ViewQuestion& question, const PointView& view,
                bool with_map) {
   const bool point = view.eye.kind == Viewpoint::Kind::Eye;
-  Json j{{point ? "from" : "direction", asked_json(question)},
+  Json j{{point ? "from" : "direction", asked_json(question.eye.at, question.asked)},
          {"eye", name(view.place)},
          {"ids", view.place_ids},
          {"facets", facets_json(scene, view)},

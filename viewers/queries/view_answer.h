@@ -24,8 +24,9 @@ namespace sightline::viewers {
 /// How many of the view's vertices are of this kind.
 [[nodiscard]] int count(const PointView& view, MapVertexKind kind);
 
-/// The coordinates as they were asked: a number where it was one, else the text.
-[[nodiscard]] Json asked_json(const ViewQuestion& question);
+/// Coordinates as they were asked: a number where it was one, else the text.
+[[nodiscard]] Json asked_json(const ExactPosition& at,
+                              const std::array<std::string, 3>& asked);
 
 /// One of "views" in the answer of `sightline look`, with "map" if asked for.  A line in
 /// the map is the id of an edge, or {"facets": [a, b]}; the "boundary" of a region lists

@@ -1,0 +1,46 @@
+// A picture of a scene as its area lights shine on it, without what surfaces reflect.
+//
+// Neighbours: backprojection.h answers a pixel's point; viewers make an image of it.
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "linespace/occlusion.h"
+#include "shadows/backprojection.h"
+
+namespace sightline {
+
+/// A camera of perspective.
+struct PictureCamera {
+  Point eye;
+  Point towards;       ///< in the picture's middle; another point than the eye
+  Eigen::Vector3d up;  ///< not along the line of sight
+  double fov = 1;      ///< from the left to the right, radians, below pi
+  int width = 0, height = 0;
+};
+
+struct LitPixel {
+  enum class Kind : std::uint8_t { Nothing, Source, Surface };
+  Kind kind = Kind::Nothing;
+  int face = -1;  ///< the first face on the ray through the pixel's centre
+  /// Surface: form factor of the point that is seen, on the side that is seen, to the
+  /// source: irradiance over the source's radiosity.  Source: 1.
+  double value = 0;
+};
+
+/// Rows from the top, each from the left.  rays = 0: the face on the ray through each
+/// pixel's centre, and what the point on it sees of the light, exactly; the point is the
+/// nearest one of doubles, moved exactly onto the face's plane.  rays > 0: instead, that
+/// many random points of the source, uniform over its area, each asked whether it is
+/// seen; `seed` tells which.
+/// The request's threads, budget, stop and progress are heard; throws Stopped.
+[[nodiscard]] std::vector<LitPixel> lit_picture(const OcclusionIndex& occlusion,
+                                                const BackprojectionIndex& light,
+                                                const LightSource& source,
+                                                const PictureCamera& camera, int rays,
+                                                std::uint64_t seed,
+                                                const Request& request = {});
+
+}  // namespace sightline

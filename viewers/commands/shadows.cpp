@@ -1,0 +1,293 @@
+// `sightline shadows`: what points see of an area light.
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <charconv>
+#include <iostream>
+#include <optional>
+
+#include "linespace/work/parallel.h"
+#include "shadows/backprojection.h"
+#include "shadows/lit_picture.h"
+#include "viewers/commands/command_line.h"
+#include "viewers/commands/outputs.h"
+#include "viewers/pictures/lit_image.h"
+#include "viewers/queries/shadow_answer.h"
+#include "viewers/queries/shadow_questions.h"
+
+namespace sightline::viewers {
+namespace {
+
+struct ShadowOptions : CommonOptions {
+  std::vector<std::string> light, without, both_sides;
+  std::string at, csv, png;
+  bool structure = false, gradient = false;
+  std::vector<double> eye, towards, up{0, 0, 1};
+  double fov = 60;  ///< degrees
+  std::string size = "640x480";
+  int rays = 0;
+  std::uint64_t seed = 1;
+
+  [[nodiscard]] bool may_print() const {
+    return CommonOptions::may_print() && csv != "-" && png != "-";
+  }
+};
+
+Point point_of(const std::vector<double>& numbers) {
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+PictureCamera camera_of(const ShadowOptions& options) {
+  if (options.eye.empty() || options.towards.empty())
+    throw UsageError("--png: from where? name --eye x,y,z and --towards x,y,z");
+  PictureCamera camera{point_of(options.eye), point_of(options.towards),
+                       point_of(options.up), options.fov * M_PI / 180};
+  const Eigen::Vector3d way = camera.towards - camera.eye;
+  if (!(way.norm() > 0)) throw UsageError("--towards: is the eye itself");
+  if (!(way.cross(camera.up).norm() > 1e-12 * way.norm() * camera.up.norm()))
+    throw UsageError("--up: points along the line of sight");
+  const std::size_t x = options.size.find('x');
+  const auto number = [](const std::string& text) {
+    int n = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), n);
+    return error == std::errc() && end == text.data() + text.size() ? n : 0;
+  };
+  if (x != std::string::npos) {
+    camera.width = number(options.size.substr(0, x));
+    camera.height = number(options.size.substr(x + 1));
+  }
+  constexpr int kMost = 16384;
+  if (camera.width < 1 || camera.height < 1 || camera.width > kMost ||
+      camera.height > kMost) {
+    throw UsageError(
+        fmt::format("--size '{}': expected WxH, such as 640x480", options.size));
+  }
+  return camera;
+}
+
+/// What is kept of a point.
+struct AnsweredPoint {
+  Json json;
+  std::string csv;
+  ShadowClass shadow;
+};
+
+/// All points, or as many of the first as the budget allowed.
+struct AnsweredPoints {
+  std::vector<AnsweredPoint> points;
+  StageCounts predicates;
+};
+
+Request request_of(Session& session, const ShadowOptions& options) {
+  Request request = session.with_grace();
+  request.precision = options.precision;
+  request.threads = options.threads;
+  return request;
+}
+
+AnsweredPoints ask(Session& session, const ShadowOptions& options,
+                   const BackprojectionIndex& index,
+                   const std::vector<ShadowQuestion>& questions) {
+  Request request = request_of(session, options);
+  session.limit(request);
+  session.begin("points");
+  AnsweredPoints all;
+  const auto step = [&](int&, std::size_t i) {
+    try {
+      const Backprojection seen =
+          index.from(questions[i].point,
+                     {.gradient = options.gradient, .boundaries = options.structure});
+      return AnsweredPoint{
+          shadow_json(questions[i], seen, {options.structure, options.gradient}),
+          options.csv.empty() ? "" : shadow_csv(i, questions[i], seen), seen.shadow};
+    } catch (const InvalidInput& refusal) {
+      throw InvalidInput(fmt::format("{}: {}", questions[i].where, refusal.what()));
+    }
+  };
+  internal::for_each_parallel(
+      questions.size(), request, internal::Deadline(request), "points", all.predicates,
+      [] { return std::optional<int>(0); }, step,
+      [&](std::size_t, AnsweredPoint point) {
+        all.points.push_back(std::move(point));
+        return true;
+      });
+  return all;
+}
+
+void write_picture(Session& session, const ShadowOptions& options, const Scene& scene,
+                   const BackprojectionIndex& index, const LightSource& light,
+                   const PictureCamera& camera, OutputFile& file) {
+  const OcclusionIndex occlusion(scene, session.with_grace());
+  Request request = request_of(session, options);
+  session.limit(request);
+  const std::vector<LitPixel> pixels =
+      lit_picture(occlusion, index, light, camera, options.rays, options.seed, request);
+  session.write(options.png, [&](const Request&) {
+    file.stream() << encode_png(lit_image(pixels, camera.width, camera.height));
+    file.commit();
+  });
+}
+
+void print_summary(const ShadowOptions& options, const AnsweredPoints& all,
+                   std::size_t asked, double seconds) {
+  std::array<std::size_t, 3> counts{};
+  for (const AnsweredPoint& point : all.points) ++counts[static_cast<int>(point.shadow)];
+  std::cout << fmt::format(
+      "{}: {} {}{}\n  {} lit, {} in penumbra, {} in umbra\n  {:.3f} s\n", options.scene,
+      all.points.size(), all.points.size() == 1 ? "point" : "points",
+      all.points.size() < asked ? ", INCOMPLETE" : "",
+      counts[static_cast<int>(ShadowClass::Lit)],
+      counts[static_cast<int>(ShadowClass::Penumbra)],
+      counts[static_cast<int>(ShadowClass::Umbra)], seconds);
+}
+
+ExitStatus run(Session& session, const ShadowOptions& options) {
+  // 1. The outputs, the scene, the light and the points.
+  if (options.at.empty() && options.png.empty()) {
+    throw UsageError(
+        "shadows: what is asked? name points, --at FILE, or a picture, --png FILE");
+  }
+  if (options.at.empty() && !options.csv.empty())
+    throw UsageError("--csv: is a table of the points that --at names");
+  std::optional<PictureCamera> camera;
+  if (!options.png.empty()) camera = camera_of(options);
+  Outputs outputs(options);
+  OutputFile* csv = options.csv.empty() ? nullptr : &outputs.add("--csv", options.csv);
+  OutputFile* png = options.png.empty() ? nullptr : &outputs.add("--png", options.png);
+  if (!options.at.empty()) outputs.protect(options.at);
+  const Meter meter;
+  const PrecisionScope precision(options.precision);
+  Scene scene = read_scene(session, options.scene, options.format);
+  if (!options.without.empty()) {
+    session.begin("scene without faces");
+    scene = scene_without(scene, options.without, session.with_grace());
+  }
+  const LightSource light = light_source(scene, options.light, options.both_sides);
+  std::vector<ShadowQuestion> questions;
+  if (!options.at.empty())
+    questions = session.read([&] { return shadow_questions(scene, options.at); });
+
+  // 2. What they see, and what a camera sees.
+  const BackprojectionIndex index(scene, light, request_of(session, options));
+  AnsweredPoints all = ask(session, options, index, questions);
+  const bool complete = all.points.size() == questions.size();
+  if (png != nullptr) write_picture(session, options, scene, index, light, *camera, *png);
+
+  // 3. The files; the answer comes last.
+  if (csv != nullptr) {
+    csv->stream() << kShadowCsvHead;
+    for (const AnsweredPoint& point : all.points) csv->stream() << point.csv;
+    csv->commit();
+  }
+  Json answer = answer_head("shadows", scene, complete && session.unwritten().empty(),
+                            {session.seconds(), meter.predicates() + all.predicates});
+  if (!options.at.empty()) {
+    Json& points = answer["points"] = Json::array();
+    for (AnsweredPoint& point : all.points) points.push_back(std::move(point.json));
+    while (points.size() < questions.size()) points.push_back(nullptr);
+  }
+  outputs.write_answer(answer);
+  if (options.may_print())
+    print_summary(options, all, questions.size(), session.seconds());
+  return session.end(complete);
+}
+
+void add_names(CLI::App& command, const std::string& name,
+               std::vector<std::string>& names, const char* help) {
+  command.add_option(name, names, help)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("GROUP[,GROUP...]");
+}
+
+void add_vector(CLI::App& command, const std::string& name, std::vector<double>& numbers,
+                const char* help) {
+  command.add_option(name, numbers, help)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->expected(3)
+      ->check(finite_number())
+      ->type_name("x,y,z");
+}
+
+void add_picture_options(CLI::App& command, ShadowOptions& options) {
+  CLI::Option* png =
+      command
+          .add_option("--png", options.png,
+                      "a picture of the scene under its light, no display needed: every "
+                      "pixel's centre exact; what surfaces reflect is left out")
+          ->type_name("FILE");
+  add_vector(command, "--eye", options.eye, "where the picture is taken, scene units");
+  add_vector(command, "--towards", options.towards, "the point in the picture's middle");
+  add_vector(command, "--up", options.up, "what points up in it (default 0,0,1)");
+  command
+      .add_option("--fov", options.fov,
+                  "its angle from left to right, degrees (default 60)")
+      ->type_name("DEGREES")
+      ->check(number_above_zero(179));
+  command.add_option("--size", options.size, "its size in pixels (default 640x480)")
+      ->type_name("WxH");
+  command
+      .add_option("--rays", options.rays,
+                  "instead of exactly: that many random rays from each pixel's point to "
+                  "the source")
+      ->type_name("N")
+      ->check(whole_number(1, 1000000));
+  command.add_option("--seed", options.seed, "of these rays (default 1)")
+      ->type_name("N")
+      ->check(whole_number(0));
+  for (const char* name : {"--eye", "--towards", "--up", "--fov", "--size", "--rays"})
+    command.get_option(name)->needs(png);
+}
+
+}  // namespace
+
+Command add_shadows_command(CLI::App& app) {
+  auto options = std::make_shared<ShadowOptions>();
+  CLI::App* command = app.add_subcommand(
+      "shadows",
+      "area lights: what points see of them, exactly, and how much light arrives");
+  add_scene_argument(*command, *options);
+  add_names(*command, "--light", options->light,
+            "the source: all faces of these groups, or polygons #i-j, which emit from "
+            "their fronts");
+  command->get_option("--light")->required();
+  add_names(*command, "--both-sides", options->both_sides,
+            "groups whose faces emit from both sides");
+  add_names(*command, "--without", options->without,
+            "groups that are taken out of the scene first, such as panes of glass");
+  command
+      ->add_option(
+          "--at", options->at,
+          R"(JSON: {"points": [[x,y,z], ...], "normals": [[x,y,z] | null, ...], )"
+          R"("on": [polygon number | null, ...]}, the last two left out at will; )"
+          "or text, a row x,y,z or x,y,z,nx,ny,nz a point; scene units, numbers "
+          "or fractions p/q; \"on\" moves its point onto that polygon's plane "
+          "and gives it that normal")
+      ->type_name("FILE");
+  command->add_flag("--structure", options->structure,
+                    "add \"structure\", what the sides of the part seen lie on, and "
+                    "\"seen\", its corners");
+  command->add_flag("--gradient", options->gradient,
+                    "add \"gradient\", of the form factor with the point");
+  command
+      ->add_option("--csv", options->csv,
+                   "a table with a line a point: point (from 0), x, y, z, class, visible "
+                   "fraction, form factor")
+      ->type_name("FILE");
+  add_picture_options(*command, *options);
+  add_common_options(*command, *options);
+  command->footer(
+      "What hides, and what does not: docs/shadows.md.  Irradiance is the form factor "
+      "times\nthe source's radiosity.\n"
+      "Examples:\n"
+      "  sightline shadows room.obj --light lamp_shade --at points.txt --json -\n"
+      "  sightline shadows room.obj --light lamp_shade --png room.png --eye 5,2,4 "
+      "--towards 3,1,2 --up 0,1,0\n"
+      "  sightline shadows hall.obj --light '#12-19' --without panes --at grid.json "
+      "--csv grid.csv");
+  return command_of(options, run);
+}
+
+}  // namespace sightline::viewers
