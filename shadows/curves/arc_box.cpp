@@ -1,6 +1,8 @@
 #include "shadows/curves/arc_box.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace sightline::internal {
 
@@ -23,6 +25,44 @@ std::array<std::array<BallNumber, 3>, 3> control_points(const PlaneSupport& supp
     points[2][i] = c[0] + to * (c[1] + to * c[2]);
   }
   return points;
+}
+
+namespace {
+
+BallNumber value_at(const std::array<BallNumber, 3>& c, const BallNumber& s, int degree) {
+  return degree == 1 ? c[0] + c[1] * s : c[0] + s * (c[1] + s * c[2]);
+}
+
+// How far u / w is at most from its value in the middle of s: by the mean value theorem.
+double deviation(const std::array<BallNumber, 3>& u, const std::array<BallNumber, 3>& w,
+                 const BallNumber& s, const Range& w_range, int degree) {
+  const Range slope_range = range(value_at(slope(u, w), s, degree));
+  const double steepest = std::max(std::abs(slope_range.lo), std::abs(slope_range.hi));
+  const double least = std::min(std::abs(w_range.lo), std::abs(w_range.hi));
+  return steepest / (least * least) * s.radius * (1 + 8 * kUnit);
+}
+
+}  // namespace
+
+std::optional<PointRange> point_range(const PlaneSupport& support, const BallNumber& s) {
+  const auto& c = support.balls.curve;
+  const int degree = support.degree();
+  const BallNumber middle{s.hi, s.lo, 0};
+  const BallNumber w = value_at(c[2], middle, degree);
+  const BallNumber all_w = value_at(c[2], s, degree);
+  if (!sign_of(all_w)) return std::nullopt;
+  PointRange out;
+  for (const int i : {0, 1}) {
+    const std::optional<Range> r = range_of_quotient(value_at(c[i], middle, degree), w);
+    if (!r) return std::nullopt;
+    Range& wider = i == 0 ? out.x : out.y;
+    wider = *r;
+    if (s.radius == 0) continue;
+    const double d = deviation(c[i], c[2], s, range(all_w), degree);
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    wider = {std::nextafter(r->lo - d, -kInfinity), std::nextafter(r->hi + d, kInfinity)};
+  }
+  return out;
 }
 
 // With positive weights a curve lies in the convex hull of its control points.

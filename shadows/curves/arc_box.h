@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "shadows/curves/plane_arc.h"
+#include "shadows/planar/plane_support.h"
 
 namespace sightline::internal {
 
@@ -13,6 +14,14 @@ namespace sightline::internal {
 /// the coordinate.  Three points of a conic, two of a line.
 [[nodiscard]] std::array<std::array<BallNumber, 3>, 3> control_points(
     const PlaneSupport& support, const BallNumber& from, const BallNumber& to);
+
+/// A point, enclosed.
+struct PointRange {
+  Range x, y;
+};
+/// nullopt where the enclosure of w contains 0.
+[[nodiscard]] std::optional<PointRange> point_range(const PlaneSupport& support,
+                                                    const BallNumber& s);
 
 /// Contains the stretch.  nullopt where a control point may have no positive weight: of
 /// a short enough stretch all have.

@@ -273,7 +273,7 @@ Range range(const ExactParameter& x) {
 BallNumber precise_ball(const ExactParameter& x) {
   if (const auto* q = std::get_if<QuadraticRoot>(&x)) return ball(*q);
   PolynomialRoot r = std::get<PolynomialRoot>(x);
-  constexpr int kHalvings = 100;
+  constexpr int kHalvings = 40;
   for (int i = 0; i < kHalvings; ++i) {
     const ExactParameter half = halved(r);
     if (std::holds_alternative<QuadraticRoot>(half)) return precise_ball(half);

@@ -71,7 +71,7 @@ struct Range {
 [[nodiscard]] BallNumber ball(const QuadraticRoot& x);
 /// At most some units in the last place wide.
 [[nodiscard]] Range range(const ExactParameter& x);
-/// Off by some 2^-90 of itself, or of the width of its interval.
+/// Off by some 2^-90 of itself, or 2^-40 of the width of its interval.
 [[nodiscard]] BallNumber precise_ball(const ExactParameter& x);
 /// Integers times a common power of two, the largest below 1.
 [[nodiscard]] std::vector<BallNumber> balls(std::span<const Integer> values);

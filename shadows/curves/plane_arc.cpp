@@ -288,6 +288,10 @@ PlaneArcs plane_arcs(std::span<const PlaneCurve> curves, const PlaneOutline& out
     }
     i = end;
   }
+  for (const PlaneArc& arc : out.arcs) {
+    out.doubles.push_back(arc_doubles(out.supports[arc.support], arc.ends[0].parameter,
+                                      arc.ends[1].parameter));
+  }
   return out;
 }
 
@@ -324,19 +328,6 @@ Sign compare(const std::vector<PlaneSupport>& supports, int own, ArcParameter& p
     return Sign::Zero;
   }
   return compare(exact(supports, own, p), exact(supports, own, q));
-}
-
-std::optional<PointRange> point_range(const PlaneSupport& support, const BallNumber& s) {
-  const auto& c = support.balls.curve;
-  const auto value = [&](int i) {
-    return support.straight ? c[i][0] + c[i][1] * s
-                            : c[i][0] + s * (c[i][1] + s * c[i][2]);
-  };
-  const BallNumber w = value(2);
-  const std::optional<Range> x = range_of_quotient(value(0), w);
-  const std::optional<Range> y = range_of_quotient(value(1), w);
-  if (!x || !y) return std::nullopt;
-  return PointRange{*x, *y};
 }
 
 }  // namespace sightline::internal

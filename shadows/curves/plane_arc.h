@@ -10,6 +10,11 @@
 #include "shadows/curves/exact_parameter.h"
 #include "shadows/curves/plane_curve.h"
 #include "shadows/curves/plane_support.h"
+#include "shadows/planar/arc_box.h"
+#include "shadows/planar/arc_filter.h"
+#include "shadows/planar/exact_parameter.h"
+#include "shadows/planar/plane_curve.h"
+#include "shadows/planar/plane_support.h"
 
 namespace sightline::internal {
 
@@ -47,6 +52,7 @@ struct PlaneArcs {
   std::vector<PlaneSupport> supports;
   std::vector<int> conic;  ///< of a support: the first one with the same implicit form
   std::vector<PlaneArc> arcs;
+  std::vector<ArcDoubles> doubles;  ///< of each arc
 };
 
 /// The order of supports and arcs depends on their geometry alone.
@@ -59,13 +65,5 @@ struct PlaneArcs {
 /// The sign of p - q, both on the support `own`.
 [[nodiscard]] Sign compare(const std::vector<PlaneSupport>& supports, int own,
                            ArcParameter& p, ArcParameter& q);
-
-/// A point, enclosed.
-struct PointRange {
-  Range x, y;
-};
-/// nullopt where the enclosure of w contains 0.
-[[nodiscard]] std::optional<PointRange> point_range(const PlaneSupport& support,
-                                                    const BallNumber& s);
 
 }  // namespace sightline::internal

@@ -46,6 +46,14 @@ struct PlaneSupport {
   }
 };
 
+/// u' w - u w' of two quadratics: the derivative of u / w times w^2.
+template <class T>
+[[nodiscard]] std::array<T, 3> slope(const std::array<T, 3>& u,
+                                     const std::array<T, 3>& w) {
+  const T second = u[2] * w[0] - u[0] * w[2];
+  return {u[1] * w[0] - u[0] * w[1], second + second, u[2] * w[1] - u[1] * w[2]};
+}
+
 /// A homogeneous point over Q(sqrt d), w > 0.
 struct SurdPoint {
   Surd x, y, w;

@@ -255,6 +255,11 @@ void append_crossings(const PlaneArcs& all, int a, int b, std::vector<ArcCrossin
   const PlaneArc& first = all.arcs[a];
   const PlaneArc& second = all.arcs[b];
   if (first.support == second.support) return;
+  if (certainly_beside(all.doubles[a], all.doubles[b]) ||
+      certainly_beside(all.doubles[b], all.doubles[a])) {
+    ++counts.by_filter;
+    return;
+  }
   const bool a_straight = all.supports[first.support].straight;
   if (a_straight && all.supports[second.support].straight) {
     append_crossing_of_lines(all, first, second, out);

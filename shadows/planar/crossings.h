@@ -15,8 +15,9 @@ struct ArcCrossing {
 /// How many pairs of arcs were decided how.
 struct CrossingCounts {
   long pairs = 0;
-  long by_end = 0;    ///< an end was found on the other arc's line or conic, exactly
-  long by_exact = 0;  ///< roots were isolated in exact arithmetic
+  long by_filter = 0;  ///< apart, by the arcs' control points
+  long by_end = 0;     ///< an end was found on the other arc's line or conic, exactly
+  long by_exact = 0;   ///< roots were isolated in exact arithmetic
 };
 
 /// Appends all points in which two arcs meet: crossings, touches and ends.  Of arcs of

@@ -6,14 +6,6 @@
 namespace sightline::internal {
 namespace {
 
-// u' w - u w' of two quadratics: a multiple of the derivative of u / w by a positive
-// number.
-template <class T>
-std::array<T, 3> slope(const std::array<T, 3>& u, const std::array<T, 3>& w) {
-  const T second = u[2] * w[0] - u[0] * w[2];
-  return {u[1] * w[0] - u[0] * w[1], second + second, u[2] * w[1] - u[1] * w[2]};
-}
-
 Sign sign_of_slope(const PlaneSupport& support, int coordinate, const ExactParameter& s) {
   const auto& curve = support.exact.curve;
   return sign_at(integer_polynomial(slope(curve[coordinate], curve[2])), s);

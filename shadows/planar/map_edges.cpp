@@ -86,6 +86,7 @@ class MapBuilder {
     });
     for (std::size_t a = 0; a < found.size(); ++a) {
       counts.pairs += counted[a].pairs;
+      counts.by_filter += counted[a].by_filter;
       counts.by_end += counted[a].by_end;
       counts.by_exact += counted[a].by_exact;
       for (FoundCrossing& c : found[a]) {

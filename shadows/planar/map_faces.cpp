@@ -65,8 +65,9 @@ class FaceFinder {
         best[c] = e;
       }
     }
+    const ScanIndex index(map_);
     for (std::size_t v = 0; v < best.size(); ++v) {
-      if (best[v] >= 0) place(best[v]);
+      if (best[v] >= 0) place(index, best[v]);
     }
   }
 
@@ -79,7 +80,7 @@ class FaceFinder {
   [[nodiscard]] int plane() const { return static_cast<int>(first_.size()); }
 
   // Looks from an edge of a component along a line through the edge.
-  void place(int e) {
+  void place(const ScanIndex& index, int e) {
     const auto& [from, to] = map_.edges[e].ends;
     const Eigen::Vector2d p = map_.vertices[from].at, q = map_.vertices[to].at;
     const bool horizontal = std::abs(p.y() - q.y()) >= std::abs(p.x() - q.x());
@@ -87,7 +88,8 @@ class FaceFinder {
     // Not at the middle, where symmetric scenes have their vertices.
     for (const double share : {0.4571, 0.6173, 0.3319, 0.7723}) {
       const double at = p[axis] + share * (q[axis] - p[axis]);
-      const auto hits = hits_by_doubles(map_, all_edges_, horizontal, at);
+      const auto hits =
+          hits_by_doubles(map_, index.edges_at(horizontal, at), horizontal, at);
       if (hits && place(e, *hits)) return;
     }
     place_exactly(e);

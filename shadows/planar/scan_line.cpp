@@ -1,6 +1,12 @@
 #include "shadows/planar/scan_line.h"
 
 #include "shadows/curves/ball_roots.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "shadows/planar/arc_box.h"
+#include "shadows/planar/ball_roots.h"
 
 namespace sightline::internal {
 namespace {
@@ -25,6 +31,63 @@ PlaneSupport ScanLine::support() const {
   const Integer n = numerator(at), m = denominator(at);
   return line_support(horizontal ? std::array<Integer, 3>{0, m, -n}
                                  : std::array<Integer, 3>{m, 0, -n});
+}
+
+ScanIndex::ScanIndex(const MapData& map) {
+  std::vector<Range> x, y;
+  constexpr double kFar = std::numeric_limits<double>::max();
+  for (int e = 0; e < static_cast<int>(map.edges.size()); ++e) {
+    const PlaneSupport& support = map.support_of_edge(e);
+    std::optional<PointRange> box;
+    if (support.straight) {
+      const PlanarVertex& p = map.vertices[map.edges[e].ends[0]];
+      const PlanarVertex& q = map.vertices[map.edges[e].ends[1]];
+      const double error = 2 * std::max(p.error, q.error);
+      box = {
+          {std::min(p.at.x(), q.at.x()) - error, std::max(p.at.x(), q.at.x()) + error},
+          {std::min(p.at.y(), q.at.y()) - error, std::max(p.at.y(), q.at.y()) + error}};
+    } else {
+      box = box_of(support, {map.position(e, 0).range.lo, map.position(e, 1).range.hi});
+    }
+    x.push_back(box ? box->x : Range{-kFar, kFar});
+    y.push_back(box ? box->y : Range{-kFar, kFar});
+  }
+  by_x_ = rows(std::move(x));
+  by_y_ = rows(std::move(y));
+}
+
+ScanIndex::Rows ScanIndex::rows(std::vector<Range> ranges) {
+  Rows out;
+  // The middles of edges; what lies further out is counted to the first or last row.
+  double from = std::numeric_limits<double>::max(), to = -from;
+  for (const Range& r : ranges) {
+    from = std::min(from, r.middle());
+    to = std::max(to, r.middle());
+  }
+  const double count = std::ceil(std::sqrt(static_cast<double>(ranges.size())));
+  out.from = from;
+  out.width = to > from ? (to - from) / count : 1;
+  out.edges.resize(static_cast<std::size_t>(count) + 1);
+  for (int e = 0; e < static_cast<int>(ranges.size()); ++e) {
+    const int last = out.row(ranges[e].hi);
+    for (int i = out.row(ranges[e].lo); i <= last; ++i) out.edges[i].push_back(e);
+  }
+  out.ranges = std::move(ranges);
+  return out;
+}
+
+int ScanIndex::Rows::row(double x) const {
+  const double last = static_cast<double>(edges.size()) - 1;
+  return static_cast<int>(std::clamp((x - from) / width, 0.0, last));
+}
+
+std::vector<int> ScanIndex::edges_at(bool horizontal, double at) const {
+  const Rows& rows = horizontal ? by_y_ : by_x_;
+  std::vector<int> out;
+  for (const int e : rows.edges[rows.row(at)]) {
+    if (rows.ranges[e].lo <= at && at <= rows.ranges[e].hi) out.push_back(e);
+  }
+  return out;
 }
 
 std::optional<std::vector<ScanHit>> hits_by_doubles(const MapData& map,

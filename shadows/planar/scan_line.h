@@ -28,6 +28,28 @@ struct ScanHit {
   std::optional<QuadraticRoot> exact;  ///< always there of exact_hits()
 };
 
+/// Edges by where they lie, so that few have to be asked for a scan line.
+class ScanIndex {
+ public:
+  /// Keeps a reference.  Of all edges.
+  explicit ScanIndex(const MapData& map);
+
+  /// All edges that a scan line may meet, ascending.
+  [[nodiscard]] std::vector<int> edges_at(bool horizontal, double at) const;
+
+ private:
+  struct Rows {
+    double from = 0, width = 1;
+    std::vector<Range> ranges;  // of an edge
+    std::vector<std::vector<int>> edges;
+
+    [[nodiscard]] int row(double x) const;
+  };
+  [[nodiscard]] static Rows rows(std::vector<Range> ranges);
+
+  Rows by_x_, by_y_;
+};
+
 /// All crossings, in no order.  nullopt where doubles cannot tell, among others where
 /// the line passes a vertex.  at: the line's, a double.
 [[nodiscard]] std::optional<std::vector<ScanHit>> hits_by_doubles(

@@ -5,19 +5,29 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <random>
 
+#include "linespace/swaths/exact_swath.h"
 #include "shadows/planar/planar_map.h"
 #include "tests/shadows/plane_curve_generators.h"
 
 namespace sightline::internal {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+// Wall clock, and the processor time of all threads.
+struct Time {
+  std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
+  std::clock_t processor = std::clock();
 
-double milliseconds(Clock::time_point from) {
-  return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
-}
+  [[nodiscard]] double wall_ms() const {
+    const auto passed = std::chrono::steady_clock::now() - wall;
+    return std::chrono::duration<double, std::milli>(passed).count();
+  }
+  [[nodiscard]] double processor_ms() const {
+    return 1e3 * static_cast<double>(std::clock() - processor) / CLOCKS_PER_SEC;
+  }
+};
 
 // Curves that start in common points, in a square of side 100, at most `reach` long;
 // a share of them arcs of conics.  Coordinates have 53 binary digits.
@@ -73,26 +83,79 @@ std::vector<PlaneCurve> aligned(int count) {
   return curves;
 }
 
-void measure(const char* name, const std::vector<PlaneCurve>& curves, int size) {
-  const PlaneOutline outline = square_outline(0, size);
-  auto start = Clock::now();
+// Traces on the plane z = 0 of the lines through three edges: an upright
+// one and two level ones, near one another, above a square of side 100.
+std::vector<PlaneCurve> traces(int count) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0, 1);
+  const PlaneThrough ground{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+  std::vector<PlaneCurve> curves;
+  while (static_cast<int>(curves.size()) < count) {
+    const Eigen::Vector3d place(100 * unit(random), 100 * unit(random), 0);
+    const int turn = static_cast<int>(3 * unit(random));
+    std::array<Eigen::Vector3d, 6> p;
+    for (int i = 0; i < 6; i += 2) {
+      // The last edge is low, so that it throws its shadow near by.
+      const double low = i == 0 ? 60 : i == 2 ? 8 : 4;
+      p[i] = place +
+             Eigen::Vector3d(12 * unit(random), 12 * unit(random), low + unit(random));
+      p[i + 1] = p[i];
+      p[i + 1][(i / 2 + turn) % 3] += 3;
+    }
+    const ExactSwath swath = exact_swath(LineThrough{p[0], p[1]}, LineThrough{p[2], p[3]},
+                                         LineThrough{p[4], p[5]});
+    const auto trace = swath.trace(ground);
+    PlaneCurve curve{static_cast<int>(curves.size()),
+                     rational_quadratic(trace[0]),
+                     rational_quadratic(trace[1]),
+                     rational_quadratic(trace[3]),
+                     {},
+                     {}};
+    // The sign of w; 0: outside.
+    const auto inside = [&](int k) {
+      const Rational s(k, 64);
+      const auto value = [&](const RationalQuadratic& f) {
+        return nearest_double(f[0] + s * (f[1] + s * f[2]));
+      };
+      const double w = value(curve.w), x = value(curve.x) / w, y = value(curve.y) / w;
+      return x > 0 && x < 100 && y > 0 && y < 100 ? (w > 0 ? 1 : -1) : 0;
+    };
+    // The first stretch that lies inside, by samples; the outline leaves it some room.
+    int from = 0;
+    while (from < 64 && inside(from) == 0) ++from;
+    int to = from;
+    while (to < 64 && inside(to + 1) == inside(from)) ++to;
+    if (to - from < 8) continue;
+    curve.from = rational_end(Rational(from, 64));
+    curve.to = rational_end(Rational(to, 64));
+    curves.push_back(curve);
+  }
+  return curves;
+}
+
+void measure(const char* name, const std::vector<PlaneCurve>& curves, int size,
+             int margin = 0) {
+  const PlaneOutline outline = square_outline(-margin, size + margin);
+  const Time building;
   const PlanarMap map(curves, outline);
-  const double build = milliseconds(start);
-  start = Clock::now();
+  std::printf(
+      "%-20s %6zu curves %7d vertices %7d edges %7d faces  map %6.0f ms, %6.0f of "
+      "processor",
+      name, curves.size(), map.vertex_count(), map.edge_count(), map.face_count(),
+      building.wall_ms(), building.processor_ms());
+  const Time adding;
   double sum = 0;
   for (int f = 0; f < map.face_count(); ++f) sum += map.area(f);
-  const double areas = milliseconds(start);
-  start = Clock::now();
-  double checksum = 0;
+  std::printf("  areas %5.0f ms (off by %.0e)", adding.processor_ms(),
+              std::abs(sum / std::pow(size + 2 * margin, 2) - 1));
+  const Time looking;
+  int doubles = 0;
   for (int f = 0; f < map.face_count(); ++f) {
-    checksum += nearest_double(map.interior_point(f)[0]);
+    const PlanePoint p = map.interior_point(f);
+    doubles += Rational(nearest_double(p[0])) == p[0];
   }
-  const double points = milliseconds(start);
-  std::printf(
-      "%-28s %6zu curves %7d vertices %7d edges %7d faces  build %7.1f ms  areas "
-      "%6.1f ms (off by %.1e)  points %6.1f ms\n",
-      name, curves.size(), map.vertex_count(), map.edge_count(), map.face_count(), build,
-      areas, std::abs(sum / (size * size) - 1), points);
+  std::printf("  points %5.0f ms (%d no doubles)\n", looking.processor_ms(),
+              map.face_count() - doubles);
 }
 
 }  // namespace
@@ -104,6 +167,7 @@ int main(int argc, char** argv) {
   measure("segments", fans(count, 4, 0), 100);
   measure("a quarter conics", fans(count, 4, 0.25), 100);
   measure("conics", fans(count, 4, 1), 100);
+  measure("traces of swaths", traces(count), 100, 50);
   measure("aligned segments", aligned(count), 40);
   return 0;
 }
