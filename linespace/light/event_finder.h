@@ -37,8 +37,7 @@ class EventFinder {
  private:
   void add_pencil(const PencilPoint& p, const AnySegment& e);
   void name_pencil(const PencilPoint& p, const AnySegment& e, LightTrace& trace) const;
-  void visit_pair(const AnySegment& a, const AnySegment& m, const AnySegment& b,
-                  bool am);
+  void visit_pair(const AnySegment& a, const AnySegment& m, const AnySegment& b, bool am);
   void add_regulus(const AnySegment& a, const AnySegment& m, const AnySegment& b);
   void add_in_plane(const AnySegment& a, const AnySegment& e, const AnySegment& f,
                     const AnySegment& across);

@@ -94,13 +94,13 @@ bool FamilyScan::reaches_freely(const LineFamily& family,
 
 void FamilyScan::find_near(const FamilyRegion& region) {
   near_.clear();
-  space_.face_tree().traverse([&](const Box& box) { return region.may_meet(box); },
-                              [&](std::uint32_t f) {
-                                if (in_front_[f] != 0 &&
-                                    region.may_meet(space_.faces()[f].box)) {
-                                  near_.push_back(static_cast<int>(f));
-                                }
-                              });
+  space_.face_tree().traverse(
+      [&](const Box& box) { return region.may_meet(box); },
+      [&](std::uint32_t f) {
+        if (in_front_[f] != 0 && region.may_meet(space_.faces()[f].box)) {
+          near_.push_back(static_cast<int>(f));
+        }
+      });
   std::ranges::sort(near_);
 }
 

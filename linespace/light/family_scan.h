@@ -51,9 +51,9 @@ class FamilyScan {
   /// `farthest`: position among the contacts of one that must be the farthest from the
   /// source along the line; -1: any may.  `plane`: that all lines lie in, or null.  The
   /// pieces are in order along the family.
-  const std::vector<ScannedPiece>& scan(
-      const LineFamily& family, std::span<const FamilyContact> contacts, int farthest,
-      const Four<Approx>* plane);
+  const std::vector<ScannedPiece>& scan(const LineFamily& family,
+                                        std::span<const FamilyContact> contacts,
+                                        int farthest, const Four<Approx>* plane);
   /// Of a family that is one line: whether it reaches the source past all contacts, and
   /// no face's inside is in the way.
   [[nodiscard]] bool reaches_freely(const LineFamily& family,

@@ -89,7 +89,8 @@ bool HidingSolids::hides(const Occluder& occluder, const LightPoint& p,
   const LightFace& face = space_.faces()[occluder.face];
   const Approx at_p = value(face.plane.near, p.near);
   const Approx at_q = value(face.plane.near, q.near);
-  if (!is_certain(at_p) || !is_certain(at_q) || (at_p.v > 0) == (at_q.v > 0)) return false;
+  if (!is_certain(at_p) || !is_certain(at_q) || (at_p.v > 0) == (at_q.v > 0))
+    return false;
   const Six<Approx> line = join(p.near, q.near);
   int left = 0;
   for (const LightFace::Side& s : face.sides) {

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 
+#include "linespace/contacts/seen_along.h"
 #include "linespace/sight/face_crossings.h"
 #include "linespace/silhouettes/silhouettes.h"
 #include "linespace/work/stop_scope.h"
@@ -11,31 +12,19 @@
 namespace sightline::internal {
 namespace {
 
+// With the product of the denominators as weight.
 Four<Ring> ring_of(const ExactPoint& p) {
-  // With the product of the denominators as weight.
-  const auto integer = [](const boost::multiprecision::mpz_int& x) {
-    Ring out = 0;
-    const Ring base = Ring(static_cast<double>(0x1p32));
-    boost::multiprecision::mpz_int rest = abs(x);
-    std::vector<double> digits;
-    const boost::multiprecision::mpz_int step = boost::multiprecision::mpz_int(1) << 32;
-    while (rest != 0) {
-      digits.push_back(boost::multiprecision::mpz_int(rest % step).convert_to<double>());
-      rest /= step;
-    }
-    for (auto d = digits.rbegin(); d != digits.rend(); ++d) out = out * base + Ring(*d);
-    return x < 0 ? Ring(-out) : out;
-  };
   std::array<Ring, 3> num, den;
   for (int i = 0; i < 3; ++i) {
-    num[i] = integer(boost::multiprecision::mpz_int(numerator(p[i])));
-    den[i] = integer(boost::multiprecision::mpz_int(denominator(p[i])));
+    num[i] = contacts::ring(mpq_numref(p[i].backend().data()));
+    den[i] = contacts::ring(mpq_denref(p[i].backend().data()));
   }
   return {num[0] * den[1] * den[2], num[1] * den[0] * den[2], num[2] * den[0] * den[1],
           den[0] * den[1] * den[2]};
 }
 
-// Some coordinate point off the plane of two lines that meet, and the planes through it.
+// Where two lines of one plane cross, each inside the other, as told by planes along a
+// coordinate axis that is not in that plane.
 std::optional<LightPoint> crossing(const LightLine& l, const LightLine& m) {
   for (int axis = 0; axis < 3; ++axis) {
     Point off = Point::Zero();

@@ -1,5 +1,5 @@
-// Which edges in front of a source may lie behind each other on lines to it, as far as one
-// occluder at a time, and the edges' own faces, tell.
+// Which edges in front of a source may lie behind each other on lines to it, as far as
+// one occluder at a time, and the edges' own faces, tell.
 
 #pragma once
 

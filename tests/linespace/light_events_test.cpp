@@ -347,6 +347,58 @@ TEST(LightEvents, HorizonThroughTheLight) {
   EXPECT_GT(expect_complete_on(lit, 24, 3, {0.25, -3, 0}, {0, 6, 0}, {0, 0, 3}), 20);
 }
 
+// Boxes of one axis that touch in all ways, over a floor, under a light with sides in
+// their walls' planes.
+TEST(LightEvents, TouchingBoxesInLineWithTheLight) {
+  int changes = 0;
+  for (const testing::Touching kind : testing::all_touching()) {
+    PolygonSoup soup = testing::touching_boxes(kind);
+    Point low = soup.vertices[0];
+    Point high = low;
+    for (const Point& p : soup.vertices) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    const double z = high.z() + 2;
+    add_rectangle(soup, "light", low.x(), low.y(), high.x(), high.y(), z, false);
+    add_rectangle(soup, "floor", low.x() - 4, low.y() - 4, high.x() + 4, high.y() + 4,
+                  low.z() - 1, true);
+    const Lit lit(soup);
+    changes +=
+        expect_complete_along(lit, 4, 900 + static_cast<int>(kind), low.x() - 3,
+                              low.y() - 3, high.x() + 3, high.y() + 3, low.z() - 1);
+    if (HasFailure()) {
+      ADD_FAILURE() << name(kind);
+      return;
+    }
+  }
+  EXPECT_GT(changes, 100);
+}
+
+// Everything on a grid of small integers: lines through many corners, planes through many
+// edges.
+TEST(LightEvents, TrianglesOnAGrid) {
+  int changes = 0;
+  for (int scene = 0; scene < 12; ++scene) {
+    std::mt19937 random(500 + scene);
+    std::uniform_int_distribution<int> xy(-2, 2);
+    std::uniform_int_distribution<int> z(1, 3);
+    PolygonSoup soup;
+    add_rectangle(soup, "light", -1, -1, 1, 1, 4, false);
+    for (int i = 0; i < 4;) {
+      const Point a(xy(random), xy(random), z(random));
+      const Point b(xy(random), xy(random), z(random));
+      const Point c(xy(random), xy(random), z(random));
+      if ((b - a).cross(c - a).norm() == 0) continue;
+      add_polygon(soup, "t" + std::to_string(i++), {a, b, c});
+    }
+    add_rectangle(soup, "floor", -12, -12, 12, 12, 0, true);
+    const Lit lit(soup);
+    changes += expect_complete_along(lit, 5, 600 + scene, -6, -6, 6, 6);
+  }
+  EXPECT_GT(changes, 200);
+}
+
 TEST(LightEvents, ScatteredTriangles) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> near(-0.75, 0.75);
