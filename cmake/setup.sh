@@ -9,7 +9,7 @@ source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build_dir=$source_dir/build/default
 
 program_packages=(g++ cmake ninja-build libcgal-dev libeigen3-dev libembree-dev libtbb-dev
-  libtinygltf-dev libassimp-dev libvtk9-dev nlohmann-json3-dev libcli11-dev libfmt-dev)
+  libtinygltf-dev libassimp-dev libminizip-dev libvtk9-dev nlohmann-json3-dev libcli11-dev libfmt-dev)
 test_packages=("${program_packages[@]}" libgtest-dev python3)
 
 say() { printf '%s\n' "$*" >&2; }

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -91,18 +92,43 @@ struct FormFactors {
                                        std::span<const FormFactorSurface> surfaces,
                                        const FormFactorRequest& request = {});
 
+/// The same with rows that add up to 1 (others, outside and backs included) and with
+/// A_i F_ij = A_j F_ji, as solvers may want it: each A_i F_ij times d_i d_j, the rest of
+/// a row times d_i, d near 1.  What is 0 stays 0.  Surfaces that are asked for twice, or
+/// lie on one another, make no exact solution; then the nearest found stays.  Requires
+/// all rows.
+struct EnforcedFactors {
+  FormFactors factors;
+  double moved = 0;      ///< the largest change of an entry
+  double left_over = 0;  ///< the largest distance of a row's sum from 1 after that
+};
+[[nodiscard]] EnforcedFactors enforced(const FormFactors& factors);
+
 /// Where goes what an element of surface at a point sends out?
 struct PointFactors {
   std::vector<double> factors;  ///< to each surface
   double others = 0, outside = 0, backs = 0, sky = 0;
 };
 
-/// Exact but for rounding: within 1e-12.  normal: of any length but 0.
-/// Throws InvalidInput for a point that PointViewIndex refuses.
-[[nodiscard]] PointFactors point_factors(const PointViewIndex& index, const Scene& scene,
-                                         std::span<const FormFactorSurface> surfaces,
-                                         const Viewpoint& eye,
-                                         const Eigen::Vector3d& normal,
-                                         const FormFactorRequest& request = {});
+/// Immutable; at() may be called from several threads.  Keeps a reference to the scene.
+class PointFactorIndex {
+ public:
+  /// Of the request, budget and stop are heard; throws Stopped.
+  PointFactorIndex(const Scene& scene, std::span<const FormFactorSurface> surfaces,
+                   const Request& request = {});
+  ~PointFactorIndex();
+  PointFactorIndex(PointFactorIndex&&) noexcept;
+
+  /// What is met is decided exactly (point_view.h); factors are within 1e-12.  normal: of
+  /// any length but 0.  up: as in FormFactorRequest.  Throws InvalidInput for a point
+  /// that PointViewIndex refuses.  Cost: a view.
+  [[nodiscard]] PointFactors at(
+      const Viewpoint& eye, const Eigen::Vector3d& normal,
+      const std::optional<Eigen::Vector3d>& up = std::nullopt) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 }  // namespace sightline

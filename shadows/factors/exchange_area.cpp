@@ -59,23 +59,23 @@ ExchangeArea exchange_area(std::span<const Point> sender, std::span<const Point>
   // Between events the function is smooth, and a rule of few nodes does for few digits.
   constexpr double kCoarse = 1e-10;
   const bool coarse = wanted > kCoarse * std::abs(doubled_area(g.sender));
-  const auto sum =
-      integrate_adaptively(first_intervals(g), std::max(wanted - rounding, 0.5 * wanted),
-                           kMostCuts, [&](int p, double from, double to) {
-                             std::uint64_t structure = 0;
-                             bool smooth = true;
-                             const auto f = [&](double s) {
-                               ++result.evaluations;
-                               const double value = integrand.at(g.pieces[p], s);
-                               if (structure == 0) structure = integrand.structure();
-                               smooth = smooth && structure == integrand.structure();
-                               return value;
-                             };
-                             IntegralEstimate estimate = coarse ? kronrod(kKronrod7, from, to, f)
-                                           : kronrod(kKronrod15, from, to, f);
-                             if (!smooth) estimate.error *= kKinkCaution;
-                             return estimate;
-                           });
+  const auto sum = integrate_adaptively(
+      first_intervals(g), std::max(wanted - rounding, 0.5 * wanted), kMostCuts,
+      [&](int p, double from, double to) {
+        std::uint64_t structure = 0;
+        bool smooth = true;
+        const auto f = [&](double s) {
+          ++result.evaluations;
+          const double value = integrand.at(g.pieces[p], s);
+          if (structure == 0) structure = integrand.structure();
+          smooth = smooth && structure == integrand.structure();
+          return value;
+        };
+        IntegralEstimate estimate =
+            coarse ? kronrod(kKronrod7, from, to, f) : kronrod(kKronrod15, from, to, f);
+        if (!smooth) estimate.error *= kKinkCaution;
+        return estimate;
+      });
   result.value = scale * sum.value;
   result.error = scale * (sum.error + rounding);
   return result;

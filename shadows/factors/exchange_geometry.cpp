@@ -358,7 +358,7 @@ void find_shaft(ExchangeGeometry& g) {
 }  // namespace
 
 std::optional<std::array<double, 2>> ExchangeGeometry::in_shaft(const Vector& a,
-                                                               const Vector& b) const {
+                                                                const Vector& b) const {
   constexpr double kSlack = 1e-10;
   double from = 0, to = 1;
   for (const Eigen::Vector4d& plane : shaft) {

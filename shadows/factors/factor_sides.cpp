@@ -159,6 +159,34 @@ double area_of(std::span<const Point> polygon) {
   return 0.5 * sum.norm();
 }
 
+std::vector<std::vector<FactorSide>> sides_by_face(
+    const Scene& scene, std::span<const FormFactorSurface> surfaces) {
+  std::vector<std::vector<FactorSide>> sides(2 * scene.faces().size());
+  for (std::size_t i = 0; i < surfaces.size(); ++i) {
+    for (const int f : surfaces[i].faces) {
+      sides[2 * f + (surfaces[i].back ? 1 : 0)].push_back(
+          {listed_polygon(scene, f, surfaces[i].back), static_cast<int>(i)});
+    }
+  }
+  std::vector<PointList> fronts;
+  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    const int face = static_cast<int>(f);
+    fronts.push_back(listed_polygon(scene, face, false));
+    if (sides[2 * f].empty()) sides[2 * f].push_back({fronts.back(), kOthers});
+    if (!sides[2 * f + 1].empty()) fronts.push_back(listed_polygon(scene, face, true));
+  }
+  CoplanarCover cover(fronts);
+  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    if (!sides[2 * f + 1].empty()) continue;
+    const PointList back = listed_polygon(scene, static_cast<int>(f), true);
+    for (PointList& part : cover.uncovered(back)) {
+      sides[2 * f + 1].push_back({std::move(part), kBacks});
+    }
+    cover.add(back);
+  }
+  return sides;
+}
+
 FactorScene factor_scene(const Scene& scene,
                          std::span<const FormFactorSurface> surfaces) {
   FactorScene result;

@@ -34,6 +34,13 @@ struct FactorScene {
   double coincident_area = 0;
 };
 
+/// For every face side, 2 f for the side that the file lists counter-clockwise and
+/// 2 f + 1 for the other: what it is for a direction that meets it first, with polygons
+/// in their plane; of a back, the parts that no front covers.  A face of several surfaces
+/// is listed for each.
+[[nodiscard]] std::vector<std::vector<FactorSide>> sides_by_face(
+    const Scene& scene, std::span<const FormFactorSurface> surfaces);
+
 [[nodiscard]] FactorScene factor_scene(const Scene& scene,
                                        std::span<const FormFactorSurface> surfaces);
 

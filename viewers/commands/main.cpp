@@ -85,6 +85,7 @@ int main(int argc, char** argv) {
   commands.emplace_back("analyse", add_analyse_command(app));
   commands.emplace_back("info", add_info_command(app));
   commands.emplace_back("look", add_look_command(app));
+  commands.emplace_back("formfactors", add_formfactors_command(app));
   commands.emplace_back("shadows", add_shadows_command(app));
   commands.emplace_back("skeleton", add_skeleton_command(app));
   commands.emplace_back("stab", add_stab_command(app));

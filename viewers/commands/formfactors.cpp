@@ -1,0 +1,332 @@
+// `sightline formfactors`: which share of what a surface sends out arrives where.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+#include "linespace/numbers/exact_position.h"
+#include "linespace/work/parallel.h"
+#include "shadows/form_factors.h"
+#include "viewers/commands/command_line.h"
+#include "viewers/commands/outputs.h"
+#include "viewers/json_text.h"
+#include "viewers/queries/factor_answer.h"
+#include "viewers/queries/shadow_questions.h"
+
+namespace sightline::viewers {
+namespace {
+
+struct FactorOptions : CommonOptions {
+  SurfaceWish wish;
+  std::string each = "group";
+  std::vector<std::string> without;
+  double accuracy = 1e-10;
+  std::string at, csv, npz;
+  std::vector<double> up;
+  bool enforce = false;
+
+  [[nodiscard]] bool may_print() const {
+    return CommonOptions::may_print() && csv != "-";
+  }
+  [[nodiscard]] std::optional<Eigen::Vector3d> up_vector() const {
+    if (up.empty()) return std::nullopt;
+    return Eigen::Vector3d(up[0], up[1], up[2]);
+  }
+};
+
+/// The files of one run, and what is asked of which scene.
+struct Run {
+  Outputs outputs;
+  OutputFile* csv = nullptr;
+  OutputFile* npz = nullptr;
+};
+
+void check(const FactorOptions& options) {
+  if (!options.up.empty() && options.up_vector()->norm() == 0)
+    throw UsageError("--up: is the null vector");
+  if (!options.at.empty() && (!options.npz.empty() || options.enforce)) {
+    throw UsageError(fmt::format("{}: is for a matrix, and --at asks points",
+                                 options.npz.empty() ? "--enforce" : "--npz"));
+  }
+  if (options.npz == "-") throw UsageError("--npz: needs the name of a file");
+}
+
+FormFactorRequest request_of(Session& session, const FactorOptions& options) {
+  FormFactorRequest request;
+  static_cast<Request&>(request) = session.with_grace();
+  session.limit(request);
+  request.precision = options.precision;
+  request.threads = options.threads;
+  request.accuracy = options.accuracy;
+  request.up = options.up_vector();
+  return request;
+}
+
+std::string share(double value) { return fmt::format("{:.10g}", value); }
+
+// ---- the matrix -----------------------------------------------------------------------
+
+void print_rows(const FactorOptions& options, const FormFactors& f, double seconds) {
+  constexpr std::size_t kShown = 12;
+  std::size_t entries = 0;
+  for (const FormFactorRow& row : f.rows) entries += row.to.size();
+  std::cout << fmt::format("{}: {} surfaces, {} factors above 0, each within {:.1e}{}\n",
+                           options.scene, f.names.size(), entries, f.error_bound,
+                           f.complete ? "" : ", INCOMPLETE");
+  for (std::size_t i = 0; i < std::min(kShown, f.rows.size()); ++i) {
+    const FormFactorRow& row = f.rows[i];
+    std::cout << fmt::format(
+        "  from {} (area {:.6g}): surfaces {}, others {}, outside {}, "
+        "backs {}{}\n",
+        escaped_bytes(f.names[i]), f.areas[i], share(f.row_sum(static_cast<int>(i))),
+        share(row.others), share(row.outside), share(row.backs),
+        options.up.empty() ? "" : fmt::format(", sky {}", share(row.sky)));
+    for (std::size_t k = 0; k < std::min(kShown, row.to.size()); ++k) {
+      std::cout << fmt::format("    to {}: {}\n", escaped_bytes(f.names[row.to[k]]),
+                               share(row.factor[k]));
+    }
+    if (row.to.size() > kShown) {
+      std::cout << fmt::format("    and {} more\n", row.to.size() - kShown);
+    }
+  }
+  if (f.rows.size() > kShown) {
+    std::cout << fmt::format("  and {} more rows (--json, --csv and --npz have them)\n",
+                             f.rows.size() - kShown);
+  }
+  std::cout << fmt::format("  {:.3f} s\n", seconds);
+}
+
+ExitStatus answer_matrix(Session& session, const FactorOptions& options,
+                         const Scene& scene,
+                         const std::vector<FormFactorSurface>& surfaces, Run& run) {
+  const Meter meter;
+  const FormFactors factors = form_factors(scene, surfaces, request_of(session, options));
+  const auto write = [&](const std::string& name, auto&& writer) {
+    session.write(name, [&](const Request&) { writer(); });
+  };
+  if (run.csv != nullptr) {
+    write("--csv", [&] {
+      write_factor_csv(factors, run.csv->stream());
+      run.csv->commit();
+    });
+  }
+  if (run.npz != nullptr && factors.complete) {
+    write("--npz", [&] {
+      write_factor_npz(factors, run.npz->temporary_path());
+      run.npz->commit();
+    });
+  }
+  Json answer =
+      answer_head("formfactors", scene, factors.complete && session.unwritten().empty(),
+                  {session.seconds(), meter.predicates() + factors.predicates});
+  answer["accuracy"] = options.accuracy;
+  answer.update(factors_json(factors, !options.up.empty()));
+  answer["pairs"] = {{"facing", factors.pairs},
+                     {"open", factors.open},
+                     {"partly_hidden", factors.partial}};
+  if (options.enforce && factors.complete) {
+    const EnforcedFactors e = enforced(factors);
+    answer["enforced"] = factors_json(e.factors, !options.up.empty());
+    answer["enforced"].erase("error_bound");
+    answer["enforced"]["moved"] = e.moved;
+    answer["enforced"]["left_over"] = e.left_over;
+  }
+  run.outputs.write_answer(answer);
+  if (options.may_print()) print_rows(options, factors, session.seconds());
+  return session.end(factors.complete);
+}
+
+// ---- points ---------------------------------------------------------------------------
+
+struct AnsweredPoints {
+  std::vector<PointFactors> points;
+  StageCounts predicates;
+};
+
+AnsweredPoints ask(Session& session, const FactorOptions& options, const Scene& scene,
+                   const std::vector<FormFactorSurface>& surfaces,
+                   const std::vector<ShadowQuestion>& questions) {
+  const FormFactorRequest request = request_of(session, options);
+  const PointFactorIndex index(scene, surfaces, request);
+  session.begin("points");
+  AnsweredPoints all;
+  const auto step = [&](int&, std::size_t i) {
+    const ShadowPoint& point = questions[i].point;
+    try {
+      return index.at({Viewpoint::Kind::Eye, point.at}, point.normal->nearest,
+                      request.up);
+    } catch (const InvalidInput& refusal) {
+      throw InvalidInput(fmt::format("{}: {}", questions[i].where, refusal.what()));
+    }
+  };
+  internal::for_each_parallel(
+      questions.size(), request, internal::Deadline(request), "points", all.predicates,
+      [] { return std::optional<int>(0); }, step,
+      [&](std::size_t, PointFactors point) {
+        all.points.push_back(std::move(point));
+        return true;
+      });
+  return all;
+}
+
+void print_points(const FactorOptions& options,
+                  const std::vector<FormFactorSurface>& surfaces,
+                  const AnsweredPoints& all, std::size_t asked, double seconds) {
+  constexpr std::size_t kShown = 12;
+  std::cout << fmt::format("{}: {} points{}\n", options.scene, all.points.size(),
+                           all.points.size() < asked ? ", INCOMPLETE" : "");
+  for (std::size_t i = 0; i < std::min(kShown, all.points.size()); ++i) {
+    const PointFactors& p = all.points[i];
+    std::cout << fmt::format(
+        "  point {}: others {}, outside {}, backs {}{}\n", i, share(p.others),
+        share(p.outside), share(p.backs),
+        options.up.empty() ? "" : fmt::format(", sky {}", share(p.sky)));
+    for (std::size_t k = 0; k < p.factors.size(); ++k) {
+      if (p.factors[k] == 0 || k >= kShown) continue;
+      std::cout << fmt::format("    to {}: {}\n", escaped_bytes(surfaces[k].name),
+                               share(p.factors[k]));
+    }
+  }
+  std::cout << fmt::format("  {:.3f} s\n", seconds);
+}
+
+ExitStatus answer_points(Session& session, const FactorOptions& options,
+                         const Scene& scene,
+                         const std::vector<FormFactorSurface>& surfaces, Run& run) {
+  const Meter meter;
+  const std::vector<ShadowQuestion> questions =
+      session.read([&] { return shadow_questions(scene, options.at); });
+  for (const ShadowQuestion& q : questions) {
+    if (!q.point.normal)
+      throw InvalidInput(fmt::format("{}: a normal is needed", q.where));
+  }
+  const AnsweredPoints all = ask(session, options, scene, surfaces, questions);
+  const bool complete = all.points.size() == questions.size();
+  const bool sky = !options.up.empty();
+  if (run.csv != nullptr) {
+    run.csv->stream() << point_factor_csv_head(surfaces, sky);
+    for (std::size_t i = 0; i < all.points.size(); ++i) {
+      run.csv->stream() << point_factor_csv(i, all.points[i], sky);
+    }
+    run.csv->commit();
+  }
+  Json answer = answer_head("formfactors", scene, complete,
+                            {session.seconds(), meter.predicates() + all.predicates});
+  Json& groups = answer["groups"] = Json::array();
+  for (const FormFactorSurface& s : surfaces) groups.push_back(s.name);
+  Json& points = answer["points"] = Json::array();
+  for (const PointFactors& p : all.points) points.push_back(point_factors_json(p, sky));
+  while (points.size() < questions.size()) points.push_back(nullptr);
+  run.outputs.write_answer(answer);
+  if (options.may_print())
+    print_points(options, surfaces, all, questions.size(), session.seconds());
+  return session.end(complete);
+}
+
+ExitStatus run(Session& session, const FactorOptions& options) {
+  check(options);
+  Run files{Outputs(options)};
+  if (!options.csv.empty()) files.csv = &files.outputs.add("--csv", options.csv);
+  if (!options.npz.empty()) files.npz = &files.outputs.add("--npz", options.npz);
+  if (!options.at.empty()) files.outputs.protect(options.at);
+  const PrecisionScope precision(options.precision);
+  Scene scene = read_scene(session, options.scene, options.format);
+  if (!options.without.empty()) {
+    session.begin("scene without faces");
+    scene = scene_without(scene, options.without, session.with_grace());
+  }
+  SurfaceWish wish = options.wish;
+  wish.each_face = options.each == "face";
+  const std::vector<FormFactorSurface> surfaces = surfaces_of(scene, wish);
+  return options.at.empty() ? answer_matrix(session, options, scene, surfaces, files)
+                            : answer_points(session, options, scene, surfaces, files);
+}
+
+void add_names(CLI::App& command, const std::string& name,
+               std::vector<std::string>& names, const char* help) {
+  command.add_option(name, names, help)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("GROUP[,GROUP...]");
+}
+
+void add_surface_options(CLI::App& command, FactorOptions& options) {
+  add_names(command, "--groups", options.wish.groups,
+            "the surfaces, in this order, or polygons #i-j (default: all groups)");
+  command
+      .add_option("--each", options.each,
+                  "what a surface is: a group as a whole, or every polygon of these "
+                  "groups, named GROUP/number in the file (default group)")
+      ->type_name("group|face")
+      ->check(one_of({"group", "face"}));
+  add_names(command, "--both-sides", options.wish.both_sides,
+            "groups that send out and receive by both sides: their backs are surfaces of "
+            "their own, GROUP/back");
+  add_names(command, "--without", options.without,
+            "groups that are taken out of the scene first, such as panes of glass");
+  command
+      .add_option("--accuracy", options.accuracy,
+                  "largest error of an entry, 1e-13 to 0.1 (default 1e-10)")
+      ->type_name("E")
+      ->check(number_above_zero(0.1));
+}
+
+void add_answer_options(CLI::App& command, FactorOptions& options) {
+  command
+      .add_option("--at", options.at,
+                  "instead of a matrix: from these points with normals, JSON or text as "
+                  "`sightline shadows --at` takes them")
+      ->type_name("FILE");
+  command
+      .add_option("--up", options.up,
+                  "add \"sky\": the part of \"outside\" that leaves within 90 degrees of "
+                  "this direction (the sky view factor)")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->expected(3)
+      ->check(finite_number())
+      ->type_name("x,y,z");
+  command.add_flag(
+      "--enforce", options.enforce,
+      "add \"enforced\": the matrix scaled so that rows add up to 1 and "
+      "A_i F_ij = A_j F_ji to the last digit, and by how much that moved it");
+  command
+      .add_option("--csv", options.csv,
+                  "a table: from, to, factor for every entry that is not 0; of points a "
+                  "line each")
+      ->type_name("FILE");
+  command
+      .add_option("--npz", options.npz,
+                  "the matrix for Python: scipy.sparse.load_npz opens it; areas, names, "
+                  "others, outside and backs are in it too")
+      ->type_name("FILE");
+}
+
+}  // namespace
+
+Command add_formfactors_command(CLI::App& app) {
+  auto options = std::make_shared<FactorOptions>();
+  CLI::App* command = app.add_subcommand(
+      "formfactors",
+      "which share of what a surface sends out arrives where, with error bounds");
+  add_scene_argument(*command, *options);
+  add_surface_options(*command, *options);
+  add_answer_options(*command, *options);
+  add_common_options(*command, *options);
+  command->footer(
+      "Surfaces send out and receive by their fronts; all faces of the scene block.  Row "
+      "i "
+      "of the\nmatrix is where goes what surface i sends out; others, outside and backs "
+      "take the rest, so\nthat a row and these add up to 1 but for errors.  Nothing is "
+      "normalised.  Definitions and\nwhat is proved of the bound: docs/form_factors.md.\n"
+      "Examples:\n"
+      "  sightline formfactors room.obj --json -\n"
+      "  sightline formfactors room.obj --each face --accuracy 1e-7 --npz room.npz\n"
+      "  sightline formfactors hall.obj --groups floor,window --without pane\n"
+      "  sightline formfactors roof.obj --at sensors.txt --up 0,0,1 --csv sensors.csv");
+  return command_of(options, run);
+}
+
+}  // namespace sightline::viewers

@@ -1,0 +1,39 @@
+// Form factors as JSON, as rows of a table, and as a sparse matrix for SciPy.
+
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "shadows/form_factors.h"
+#include "viewers/answer.h"
+
+namespace sightline::viewers {
+
+/// More surfaces than this have no "matrix" in the JSON answer: it would be larger than
+/// what readers take.
+inline constexpr std::size_t kLargestMatrix = 5000;
+
+/// "groups", "areas", "matrix", "others", "outside", "backs", "row_sums", "sky" with up,
+/// "error_bound" and "coincident_area"; null for rows that were not done.
+[[nodiscard]] Json factors_json(const FormFactors& factors, bool sky);
+
+inline constexpr std::string_view kFactorCsvHead = "from,to,factor\n";
+/// A line for every entry that is not 0.
+void write_factor_csv(const FormFactors& factors, std::ostream& out);
+/// What scipy.sparse.load_npz opens, and "areas", "names", "others", "outside", "backs".
+/// Requires all rows.
+void write_factor_npz(const FormFactors& factors, const std::filesystem::path& file);
+
+/// One of "points".
+[[nodiscard]] Json point_factors_json(const PointFactors& factors, bool sky);
+/// The names of the surfaces, then what else there is.
+[[nodiscard]] std::string point_factor_csv_head(
+    const std::vector<FormFactorSurface>& surfaces, bool sky);
+[[nodiscard]] std::string point_factor_csv(std::size_t number,
+                                           const PointFactors& factors, bool sky);
+
+}  // namespace sightline::viewers
