@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "shadows/curves/plane_arc.h"
-#include "shadows/planar/plane_support.h"
+#include "shadows/curves/plane_support.h"
 
 namespace sightline::internal {
 

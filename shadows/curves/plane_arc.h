@@ -7,14 +7,11 @@
 #include <span>
 #include <vector>
 
+#include "shadows/curves/arc_box.h"
+#include "shadows/curves/arc_filter.h"
 #include "shadows/curves/exact_parameter.h"
 #include "shadows/curves/plane_curve.h"
 #include "shadows/curves/plane_support.h"
-#include "shadows/planar/arc_box.h"
-#include "shadows/planar/arc_filter.h"
-#include "shadows/planar/exact_parameter.h"
-#include "shadows/planar/plane_curve.h"
-#include "shadows/planar/plane_support.h"
 
 namespace sightline::internal {
 

@@ -24,8 +24,8 @@
 #include <span>
 #include <vector>
 
-#include "shadows/planar/map_data.h"
 #include "shadows/curves/plane_curve.h"
+#include "shadows/planar/map_data.h"
 
 namespace sightline::internal {
 

@@ -1,12 +1,11 @@
 #include "shadows/planar/scan_line.h"
 
-#include "shadows/curves/ball_roots.h"
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "shadows/planar/arc_box.h"
-#include "shadows/planar/ball_roots.h"
+#include "shadows/curves/arc_box.h"
+#include "shadows/curves/ball_roots.h"
 
 namespace sightline::internal {
 namespace {

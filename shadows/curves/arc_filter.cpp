@@ -1,9 +1,9 @@
-#include "shadows/planar/arc_filter.h"
+#include "shadows/curves/arc_filter.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "shadows/planar/arc_box.h"
+#include "shadows/curves/arc_box.h"
 
 namespace sightline::internal {
 namespace {
