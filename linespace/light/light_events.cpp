@@ -65,6 +65,8 @@ LightEvents light_events(const LightSpace& space, const LightEventsRequest& requ
   LightEvents out;
   const Wanted wanted(space.faces().size(), request);
   out.patches = source_patches(space.scene(), request.source_faces);
+  std::ranges::move(source_patches(space.scene(), request.source_backs, FaceSide::Back),
+                    std::back_inserter(out.patches));
   try {
     Stage stage(request, "events of the source", deadline);
     const HidingSolids solids(space);

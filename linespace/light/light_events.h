@@ -35,7 +35,8 @@ struct LightEvents {
 };
 
 struct LightEventsRequest : Request {
-  std::vector<int> source_faces;
+  std::vector<int> source_faces;  ///< these shine from their fronts
+  std::vector<int> source_backs;  ///< these from their backs
   /// Faces on whose fronts traces are wanted; empty: all.
   std::vector<int> receivers;
   /// Also on their backs.

@@ -282,18 +282,20 @@ class OutlineFinder {
   std::vector<const LightPoint*> hull_;
 };
 
-LightPlane plane_of_face(const Scene& scene, int face) {
+LightPlane plane_of_face(const Scene& scene, int face, FaceSide side) {
   const auto p = scene.face_points(face);
-  return light_plane(light_point(scene.point(p[0])), light_point(scene.point(p[1])),
-                     light_point(scene.point(p[2])));
+  const bool front = side == FaceSide::Front;
+  return light_plane(light_point(scene.point(p[front ? 0 : 2])),
+                     light_point(scene.point(p[1])),
+                     light_point(scene.point(p[front ? 2 : 0])));
 }
 
 // Both faces lie in the plane and face alike.
-bool same_plane(const Scene& scene, const LightPlane& plane, int face) {
+bool same_plane(const Scene& scene, const LightPlane& plane, int face, FaceSide side) {
   for (const int p : scene.face_points(face)) {
     if (sign_at(plane, light_point(scene.point(p))) != Sign::Zero) return false;
   }
-  const LightPlane other = plane_of_face(scene, face);
+  const LightPlane other = plane_of_face(scene, face, side);
   const Ring same = plane.exact[0] * other.exact[0] + plane.exact[1] * other.exact[1] +
                     plane.exact[2] * other.exact[2];
   return sign_of(same) == Sign::Positive;
@@ -303,6 +305,16 @@ bool same_plane(const Scene& scene, const LightPlane& plane, int face) {
 std::optional<std::array<LightPoint, 2>> foot_of(const Scene& scene,
                                                  const LightPlane& plane, int face) {
   const auto ids = scene.face_points(face);
+  // Most faces lie on one side of the plane, as doubles can tell.
+  bool all_before = true, all_beyond = true;
+  for (const int p : ids) {
+    const Point& x = scene.point(p);
+    const Approx height =
+        value(plane.near, Four<Approx>{{{x[0]}, {x[1]}, {x[2]}, {1.0}}});
+    all_before &= is_certain(height) && height.v > 0;
+    all_beyond &= is_certain(height) && height.v < 0;
+  }
+  if (all_before || all_beyond) return std::nullopt;
   std::vector<LightPoint> points;
   std::vector<Sign> signs;
   for (const int p : ids) {
@@ -327,18 +339,20 @@ std::optional<std::array<LightPoint, 2>> foot_of(const Scene& scene,
 
 }  // namespace
 
-std::vector<SourcePatch> source_patches(const Scene& scene, std::span<const int> faces) {
+std::vector<SourcePatch> source_patches(const Scene& scene, std::span<const int> faces,
+                                        FaceSide side) {
   std::vector<SourcePatch> patches;
   for (const int f : faces) {
     const auto found = std::ranges::find_if(patches, [&](const SourcePatch& patch) {
-      return same_plane(scene, patch.plane, f);
+      return same_plane(scene, patch.plane, f, side);
     });
     if (found != patches.end()) {
       found->faces.push_back(f);
     } else {
       patches.emplace_back();
       patches.back().faces = {f};
-      patches.back().plane = plane_of_face(scene, f);
+      patches.back().side = side;
+      patches.back().plane = plane_of_face(scene, f, side);
     }
   }
   for (SourcePatch& patch : patches) {
@@ -351,6 +365,7 @@ std::vector<SourcePatch> source_patches(const Scene& scene, std::span<const int>
         points.push_back(light_point(scene.point(p)));
         polygon.push_back(&points.back());
       }
+      if (side == FaceSide::Back) std::ranges::reverse(polygon);
     }
     OutlineFinder finder(patch, polygons);
     finder.find_hull();

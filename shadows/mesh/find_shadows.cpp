@@ -42,7 +42,11 @@ class ShadowFinder {
         space_(scene, request) {
     LightEventsRequest wanted;
     static_cast<Request&>(wanted) = request;
-    wanted.source_faces = source.faces;
+    for (const int f : source.faces) {
+      const bool both = std::ranges::binary_search(source.both_sides, f);
+      if (both || !scene.turned(f)) wanted.source_faces.push_back(f);
+      if (both || scene.turned(f)) wanted.source_backs.push_back(f);
+    }
     for (const Receiver& r : receivers) {
       for (const int f : r.faces) {
         (scene_front(scene, f, r.front) ? wanted.receivers : wanted.receive_behind)
@@ -64,8 +68,9 @@ class ShadowFinder {
           .push_back(f);
     }
     for (const auto& [key, faces] : facets) {
-      for (const SourcePatch& patch : source_patches(*scene_, faces))
-        add_patch(patch, key.first, key.second, out);
+      const FaceSide side = key.second ? FaceSide::Front : FaceSide::Back;
+      for (const SourcePatch& patch : source_patches(*scene_, faces, side))
+        add_patch(patch, key.first, out);
     }
     return out;
   }
@@ -73,8 +78,9 @@ class ShadowFinder {
   StructureTable& structures() { return structures_; }
 
  private:
-  void add_patch(const SourcePatch& patch, int facet, bool front, ReceiverShadows& out) {
-    const ReceiverPlane plane(patch, front);
+  void add_patch(const SourcePatch& patch, int facet, ReceiverShadows& out) {
+    const ReceiverPlane plane(patch);
+    const bool front = patch.side == FaceSide::Front;
     std::vector<PieceOnFace> pieces;
     for (const int f : patch.faces) {
       const auto& of_face = (front ? front_ : back_)[f];

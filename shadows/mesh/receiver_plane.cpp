@@ -22,13 +22,9 @@ ExactPoint exact_of(const LightPoint& p) {
 
 }  // namespace
 
-ReceiverPlane::ReceiverPlane(const SourcePatch& patch, bool front) {
-  for (int i = 0; i < 3; ++i) {
-    normal_[i] = rational(patch.plane.exact[i]);
-    if (!front) normal_[i] = -normal_[i];
-  }
+ReceiverPlane::ReceiverPlane(const SourcePatch& patch) {
+  for (int i = 0; i < 3; ++i) normal_[i] = rational(patch.plane.exact[i]);
   offset_ = rational(patch.plane.exact[3]);
-  if (!front) offset_ = -offset_;
   for (int i = 0; i < 3; ++i) {
     if (abs(normal_[i]) > abs(normal_[w_])) w_ = i;
   }

@@ -14,9 +14,8 @@ namespace sightline::internal {
 /// is largest, so that scene points have doubles.
 class ReceiverPlane {
  public:
-  /// patch: of faces that hang together.  front: the side that receives is the patch's
-  /// front.
-  ReceiverPlane(const SourcePatch& patch, bool front);
+  /// patch: of faces that hang together, on the side that receives.
+  explicit ReceiverPlane(const SourcePatch& patch);
 
   [[nodiscard]] const PlaneOutline& outline() const { return outline_; }
   /// Exact, of length other than 1, towards the side that receives.

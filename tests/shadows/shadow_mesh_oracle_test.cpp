@@ -32,6 +32,8 @@ TEST(ShadowMeshOracle, ViewsChangeWhereTheMeshSaysSo) {
       const ReceiverShadows& r = shadows.receivers.at(0);
       EXPECT_NEAR(r.umbra_area + r.penumbra_area + r.lit_area, r.area, 1e-12 * r.area);
       for (const ShadowMesh& mesh : r.meshes) {
+        // Doubles cannot be told to lie on this or that triangle of a bent facet.
+        if (!scene.facets()[mesh.facet].planar) continue;
         const MeshWalk walk = walk_mesh(scene, light, shadows, mesh, true, 1, 4, 2);
         stretches += walk.stretches;
         for (const std::string& difference : walk.differences)

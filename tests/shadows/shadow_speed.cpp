@@ -53,7 +53,8 @@ int main(int argc, char** argv) {
     // Points of a lattice of two irrational steps.
     const double u = std::fmod(0.5 + i * 0.7548776662466927, 1.0);
     const double v = std::fmod(0.5 + i * 0.5698402909980532, 1.0);
-    const Point p(low.x() + u * (high.x() - low.x()), low.y() + v * (high.y() - low.y()), 0);
+    const Point p(low.x() + u * (high.x() - low.x()), low.y() + v * (high.y() - low.y()),
+                  0);
     ++classes[static_cast<int>(index.from(shadow_point(p, {0, 0, 1})).shadow)];
   }
   const double asked = seconds();
@@ -83,9 +84,10 @@ int main(int argc, char** argv) {
       for (const auto& e : mesh.edges) ++counts[static_cast<int>(e.kind)];
     }
   }
-  std::printf("%s %d: %.2f s, %.2f s of processor time; %zu faces, %zu edges: boundary %zu, "
-              "contact %zu, plane %zu, face %zu, EE %zu, EV %zu, EEE %zu\n",
-              kind.c_str(), polygons, done - begun,
-              static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC, faces, edges,
-              counts[0], counts[1], counts[2], counts[3], counts[4], counts[5], counts[6]);
+  std::printf(
+      "%s %d: %.2f s, %.2f s of processor time; %zu faces, %zu edges: boundary %zu, "
+      "contact %zu, plane %zu, face %zu, EE %zu, EV %zu, EEE %zu\n",
+      kind.c_str(), polygons, done - begun,
+      static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC, faces, edges, counts[0],
+      counts[1], counts[2], counts[3], counts[4], counts[5], counts[6]);
 }
