@@ -59,6 +59,9 @@ struct Lit {
       source_facets.push_back(scene.faces()[f].facet);
     }
     floor_facet = scene.faces()[scene.faces_named(floor)[0]].facet;
+    // Lines that are told run from the source to the receiver with nothing between.
+    EXPECT_EQ(testing::wrong_pieces(space, events), 0)
+        << scene.faces().size() << " faces";
   }
   [[nodiscard]] std::string structure(const Point& p) const {
     return testing::seen_structure(index, scene, source, source_facets, p);
@@ -397,6 +400,53 @@ TEST(LightEvents, TrianglesOnAGrid) {
     changes += expect_complete_along(lit, 5, 600 + scene, -6, -6, 6, 6);
   }
   EXPECT_GT(changes, 200);
+}
+
+// A narrow gutter of two sheets, with a valley between their fronts: from below the fold
+// is an outline.
+TEST(LightEvents, FoldOfASheet) {
+  PolygonSoup soup;
+  add_rectangle(soup, "light", -1, -1, 1, 1, 4, false);
+  soup.vertices.insert(soup.vertices.end(), {{-1, 0.25, 1.5},
+                                             {1, -0.125, 1.75},
+                                             {1, 0.25, 2.75},
+                                             {-1, 0.5, 2.5},
+                                             {1, -0.375, 2.75},
+                                             {-1, 0.125, 2.5}});
+  const int v = 4;
+  soup.polygons.push_back({v, v + 1, v + 2});
+  soup.polygons.push_back({v, v + 2, v + 3});
+  soup.polygons.push_back({v + 1, v, v + 5});
+  soup.polygons.push_back({v + 1, v + 5, v + 4});
+  soup.groups.push_back({"gutter", {1, 2, 3, 4}});
+  add_rectangle(soup, "floor", -12, -12, 12, 12, 0, true);
+  const Lit lit(soup);
+  EXPECT_GT(expect_complete_along(lit, 20, 5, -8, -8, 8, 8), 20);
+}
+
+Point scaled_and_turned(const Point& p, int exponent) {
+  return Point(std::ldexp(p.y(), exponent), std::ldexp(p.z(), exponent),
+               std::ldexp(p.x(), exponent));
+}
+
+// Another size and other axes: the same traces and pieces.
+TEST(LightEvents, PowersOfTwoAndAxes) {
+  PolygonSoup soup;
+  add_rectangle(soup, "light", -1, -1, 1, 1, 4, false);
+  add_ceiling_with_hole(soup, "ceiling", 4);
+  add_blockers(soup);
+  testing::add_box(soup, "hanging", {-0.75, -0.75, 3.5}, {-0.25, 0.25, 4.5});
+  const Lit lit(soup);
+  for (const int exponent : {0, 3, -40, 60}) {
+    PolygonSoup other = soup;
+    for (Point& p : other.vertices) p = scaled_and_turned(p, exponent);
+    const Lit again(other);
+    ASSERT_EQ(again.events.traces.size(), lit.events.traces.size()) << exponent;
+    EXPECT_EQ(again.pieces_on_floor(), lit.pieces_on_floor()) << exponent;
+    for (std::size_t i = 0; i < lit.events.traces.size(); ++i) {
+      EXPECT_EQ(again.events.traces[i].generators, lit.events.traces[i].generators);
+    }
+  }
 }
 
 TEST(LightEvents, ScatteredTriangles) {

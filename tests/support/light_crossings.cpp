@@ -11,23 +11,10 @@ using internal::Four;
 using internal::LightTrace;
 using internal::Ring;
 
-Eigen::Vector4d rounded(const Four<Ring>& x) {
-  // Scaled to size 1.
-  double size = 0;
-  for (const Ring& r : x) size = std::max(size, std::abs(CGAL::to_double(r)));
-  Eigen::Vector4d out;
-  for (int i = 0; i < 4; ++i) out[i] = CGAL::to_double(x[i]) / size;
-  return out;
-}
-
 // The points in which the lines of a family meet a plane: weighted, of degree 2 in s.
 class PlaneTrace {
  public:
   PlaneTrace(const LightTrace& trace, const Eigen::Vector4d& plane) : plane_(plane) {
-    for (int i = 0; i < 2; ++i) {
-      x_[i] = rounded(trace.first[i]);
-      y_[i] = rounded(trace.last[i]);
-    }
     // One scale for both ends.
     const auto rescale = [](const std::array<Four<Ring>, 2>& exact,
                             std::array<Eigen::Vector4d, 2>& points) {
@@ -44,9 +31,15 @@ class PlaneTrace {
     rescale(trace.first, x_);
     rescale(trace.last, y_);
   }
+  [[nodiscard]] Eigen::Vector4d first(double s) const {
+    return (1 - s) * x_[0] + s * x_[1];
+  }
+  [[nodiscard]] Eigen::Vector4d last(double s) const {
+    return (1 - s) * y_[0] + s * y_[1];
+  }
   [[nodiscard]] Eigen::Vector4d at(double s) const {
-    const Eigen::Vector4d x = (1 - s) * x_[0] + s * x_[1];
-    const Eigen::Vector4d y = (1 - s) * y_[0] + s * y_[1];
+    const Eigen::Vector4d x = first(s);
+    const Eigen::Vector4d y = last(s);
     return plane_.dot(y) * x - plane_.dot(x) * y;
   }
 
@@ -74,8 +67,8 @@ std::vector<double> roots(double at0, double at_half, double at1) {
 }
 
 // A plane as normal and offset, of length 1.
-Eigen::Vector4d plane_of_facet(const Scene& scene, int facet) {
-  const auto ids = scene.face_points(scene.facets()[facet].faces[0]);
+Eigen::Vector4d plane_of_face(const Scene& scene, int face) {
+  const auto ids = scene.face_points(face);
   const Point normal = (scene.point(ids[1]) - scene.point(ids[0]))
                            .cross(scene.point(ids[2]) - scene.point(ids[0]))
                            .normalized();
@@ -101,7 +94,7 @@ int first_in_line(const Scene& scene, int edge) {
 
 std::vector<double> foot_crossings(const Scene& scene, int facet, const Point& p,
                                    const Point& q) {
-  const Eigen::Vector4d plane = plane_of_facet(scene, facet);
+  const Eigen::Vector4d plane = plane_of_face(scene, scene.facets()[facet].faces[0]);
   const Point normal = plane.head<3>();
   const Point way = q - p;
   std::vector<double> out;
@@ -135,7 +128,7 @@ std::vector<double> light_crossings(const internal::LightSpace& space,
                                     const internal::LightEvents& events, int facet,
                                     const Point& p, const Point& q) {
   const Scene& scene = space.scene();
-  const Eigen::Vector4d plane = plane_of_facet(scene, facet);
+  const Eigen::Vector4d plane = plane_of_face(scene, scene.facets()[facet].faces[0]);
   const Point way = q - p;
   const Point across = plane.head<3>().cross(way);
   Eigen::Vector4d beside;
@@ -174,6 +167,67 @@ std::vector<double> light_crossings(const internal::LightSpace& space,
   }
   std::ranges::sort(out);
   return out;
+}
+
+namespace {
+
+// Whether the segment passes a face's inside with that much to spare: below 0 means that
+// it may pass that far outside of it.
+bool passes(const Scene& scene, int face, const Point& p, const Point& q, double spare) {
+  const auto ids = scene.face_points(face);
+  const Point a = scene.point(ids[0]);
+  const Point normal =
+      (scene.point(ids[1]) - a).cross(scene.point(ids[2]) - a).normalized();
+  const double at_p = normal.dot(p - a);
+  const double at_q = normal.dot(q - a);
+  if (std::min(at_p, at_q) > -spare || std::max(at_p, at_q) < spare) return false;
+  const Point x = p + at_p / (at_p - at_q) * (q - p);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const Point& b = scene.point(ids[k]);
+    const Point& c = scene.point(ids[(k + 1) % ids.size()]);
+    if (normal.cross((c - b).normalized()).dot(x - b) < spare) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+int wrong_pieces(const internal::LightSpace& space, const internal::LightEvents& events) {
+  const Scene& scene = space.scene();
+  const double size = (scene.bounds()[1] - scene.bounds()[0]).norm();
+  int wrong = 0;
+  for (const LightTrace& trace : events.traces) {
+    if (trace.generators.back().kind == internal::LightFeature::Kind::Horizon) continue;
+    const internal::SourcePatch& patch = events.patches[trace.patch];
+    const PlaneTrace on_source(trace, plane_of_face(scene, patch.faces[0]));
+    for (const LightTrace::Piece& piece : trace.pieces) {
+      const double s = 0.5 * (piece.rounded[0] + piece.rounded[1]);
+      const PlaneTrace on_receiver(trace, plane_of_face(scene, piece.face));
+      const Eigen::Vector4d p4 = on_receiver.at(s);
+      const Eigen::Vector4d q4 = on_source.at(s);
+      const Point p = p4.head<3>() / p4[3];
+      const Point q = q4.head<3>() / q4[3];
+      const Point way = q - p;
+      // A little longer, so that both end faces are passed.
+      const bool lit = std::ranges::any_of(patch.faces, [&](int f) {
+        return passes(scene, f, p, q + 0.01 * way, -1e-10 * size);
+      });
+      // Both points that make the line lie on the way.
+      const auto on_way = [&](const Eigen::Vector4d& x) {
+        const double u = (x.head<3>() / x[3] - p).dot(way) / way.squaredNorm();
+        return u > -1e-9 && u < 1 + 1e-9;
+      };
+      const bool between = on_way(on_source.first(s)) && on_way(on_source.last(s));
+      bool right =
+          lit && between && passes(scene, piece.face, p - 0.01 * way, q, -1e-10 * size);
+      for (std::size_t f = 0; f < scene.faces().size() && right; ++f) {
+        right = !passes(scene, static_cast<int>(f), p + 1e-9 * way, q - 1e-9 * way,
+                        1e-9 * size);
+      }
+      wrong += right ? 0 : 1;
+    }
+  }
+  return wrong;
 }
 
 std::string seen_structure(const PointViewIndex& index, const Scene& scene,

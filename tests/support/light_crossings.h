@@ -18,6 +18,12 @@ namespace sightline::testing {
                                                   int facet, const Point& p,
                                                   const Point& q);
 
+/// Pieces whose middle line, in doubles, misses the receiver's face or the source, or does
+/// not pass its generators between the two, or certainly passes the inside of a face
+/// there.  Horizons are left out.
+[[nodiscard]] int wrong_pieces(const internal::LightSpace& space,
+                               const internal::LightEvents& events);
+
 /// Positions in [0, 1], ascending, where the segment crosses the line in which some face
 /// touches or cuts the plane of that facet: its feet there.
 [[nodiscard]] std::vector<double> foot_crossings(const Scene& scene, int facet,
