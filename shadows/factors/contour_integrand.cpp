@@ -84,6 +84,7 @@ double ContourIntegrand::over_part(const ContourPiece& piece, const Vector& q,
                                    double sign) {
   seen_.assign(g_.sender);
   for (const Vector& n : piece.attached) seen_.keep(half_plane(sign * n, q));
+  if (g_.up) seen_.keep({-g_.up->x(), -g_.up->y(), g_.up->dot(q)});
   if (!piece.on_target) keep_before_target(q);
   for (const int b : piece.shading) {
     if (seen_.empty()) return 0;
@@ -130,6 +131,45 @@ void ContourIntegrand::remove_shadow(const Plate& plate, const Vector& q, bool b
   cone_.push_back(
       {sign * plate.normal.x(), sign * plate.normal.y(), sign * plate.offset});
   seen_.remove(cone_);
+}
+
+// Of lines in one direction: the shadow of the plate, as cast from infinitely far away.
+void ContourIntegrand::find_parallel_cone(const Plate& plate, const Vector& direction) {
+  const double sign = plate.normal.dot(direction) > 0 ? -1 : 1;
+  cone_.clear();
+  const std::vector<Vector>& corners = plate.corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector& next = corners[i + 1 < corners.size() ? i + 1 : 0];
+    const HalfPlane half =
+        half_plane(sign * direction.cross(corners[i] - next), corners[i]);
+    if (half.a != 0 || half.b != 0 || half.c != 0) cone_.push_back(half);
+  }
+}
+
+double ContourIntegrand::at_horizon(double angle) {
+  const Vector& up = *g_.up;
+  const Vector x = up.unitOrthogonal();
+  const Vector u = std::cos(angle) * x + std::sin(angle) * up.cross(x);
+  structure_ = 1;
+  if (!(u.z() > 0) || !(g_.target.normal.dot(u) < 0)) return 0;
+  seen_.assign(g_.sender);
+  find_parallel_cone(g_.target, u);
+  for (const HalfPlane& half : cone_) seen_.keep(half);
+  for (const Plate& plate : g_.blockers) {
+    if (seen_.empty()) return 0;
+    if (plate.normal.dot(u) == 0) continue;
+    find_parallel_cone(plate, u);
+    const double sign = plate.normal.dot(u) > 0 ? -1 : 1;
+    cone_.push_back(
+        {sign * plate.normal.x(), sign * plate.normal.y(), sign * plate.offset});
+    seen_.remove(cone_);
+  }
+  double area = 0;
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    area += 0.5 * doubled_area(seen_[i]);
+    structure_ = structure_ * 1000003 + seen_[i].size();
+  }
+  return area * up.z() / (2 * std::numbers::pi);
 }
 
 }  // namespace sightline::internal

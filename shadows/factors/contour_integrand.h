@@ -31,7 +31,10 @@ class ContourIntegrand {
   /// At this position along the piece, per length: the exchange area is the sum over all
   /// pieces of the integral of this.  Units of the frame.
   [[nodiscard]] double at(const ContourPiece& piece, double position);
-  /// Of the last call of at(): equal for positions at which the polygon R(q) was cut in
+  /// With `up`, what is seen ends at the horizon across it, too: per angle in [0, 2 pi]
+  /// along that circle.  Added to the sum over pieces.
+  [[nodiscard]] double at_horizon(double angle);
+  /// Of the last call: equal for positions at which the polygon R(q) was cut in
   /// the same way, but for chance.
   [[nodiscard]] std::uint64_t structure() const { return structure_; }
 
@@ -39,6 +42,7 @@ class ContourIntegrand {
   double over_part(const ContourPiece& piece, const Eigen::Vector3d& q, double sign);
   void keep_before_target(const Eigen::Vector3d& q);
   void remove_shadow(const Plate& plate, const Eigen::Vector3d& q, bool beyond);
+  void find_parallel_cone(const Plate& plate, const Eigen::Vector3d& direction);
 
   const ExchangeGeometry& g_;
   std::uint64_t structure_ = 0;

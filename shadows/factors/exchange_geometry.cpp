@@ -395,21 +395,67 @@ std::array<Point, 3> spanning_corners(std::span<const Point> polygon) {
   return {polygon[0], polygon[std::min(far, third)], polygon[std::max(far, third)]};
 }
 
-ExchangeGeometry exchange_geometry(std::span<const Point> sender,
-                                   std::span<const Point> target,
-                                   std::span<const std::span<const Point>> blockers) {
-  const Frame frame = frame_of(sender, target);
-  const Importer importer(frame, sender, target);
+namespace {
+
+ExchangeGeometry geometry_between(const Frame& frame, const Importer& importer,
+                                  std::span<const Point> sender,
+                                  std::span<const Point> target) {
   ExchangeGeometry g;
   g.unit = frame.unit;
   for (const Corner& c : above(importer.corners(sender), 1)) {
     g.sender.push_back({c.at.x(), c.at.y()});
   }
   g.target = plate_of(above(importer.corners(target), 0), importer.normal_of(target));
+  return g;
+}
+
+/// Sides of the target alone.
+void add_open_pieces(ExchangeGeometry& g) {
+  const std::vector<Vector>& corners = g.target.corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vector side = corners[(i + 1) % corners.size()] - corners[i];
+    const double length = side.norm();
+    if (length == 0) continue;
+    ContourPiece piece;
+    piece.start = corners[i];
+    piece.direction = side / length;
+    piece.length = length;
+    piece.on_target = true;
+    piece.shows_negative = false;
+    g.pieces.push_back(std::move(piece));
+  }
+}
+
+}  // namespace
+
+ExchangeGeometry open_geometry(std::span<const Point> sender,
+                               std::span<const Point> target) {
+  const Frame frame = frame_of(sender, target);
+  const Importer importer(frame, sender, target);
+  ExchangeGeometry g = geometry_between(frame, importer, sender, target);
+  if (!g.nothing()) add_open_pieces(g);
+  return g;
+}
+
+ExchangeGeometry exchange_geometry(std::span<const Point> sender,
+                                   std::span<const Point> target,
+                                   std::span<const std::span<const Point>> blockers,
+                                   const std::optional<Eigen::Vector3d>& up) {
+  const Frame frame = frame_of(sender, target);
+  const Importer importer(frame, sender, target);
+  ExchangeGeometry g = geometry_between(frame, importer, sender, target);
   if (g.nothing()) return g;
+  if (up) {
+    g.up = Vector{frame.axes[0].dot(*up), frame.axes[1].dot(*up), frame.axes[2].dot(*up)};
+    g.up->normalize();
+  }
   for (const auto& blocker : blockers) {
     Plate plate = importer.clipped(blocker);
     if (plate.corners.size() >= 3) g.blockers.push_back(std::move(plate));
+  }
+  if (g.blockers.empty()) {
+    add_open_pieces(g);
+    return g;
   }
   find_shaft(g);
   PieceMaker(g).make();

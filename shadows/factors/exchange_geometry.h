@@ -59,6 +59,8 @@ struct ExchangeGeometry {
   /// n . x + c <= 0 there, n of length 1, but for rounding.
   std::vector<Eigen::Vector4d> shaft;
   std::vector<ContourPiece> pieces;
+  /// Only lines count that rise along this unit vector.
+  std::optional<Eigen::Vector3d> up;
 
   /// The part of the segment in the shaft, from 0 to 1, with slack; nothing where it has
   /// none.
@@ -75,7 +77,12 @@ struct ExchangeGeometry {
 /// side of the planes of sender and target points lie is decided exactly.
 [[nodiscard]] ExchangeGeometry exchange_geometry(
     std::span<const Point> sender, std::span<const Point> target,
-    std::span<const std::span<const Point>> blockers);
+    std::span<const std::span<const Point>> blockers,
+    const std::optional<Eigen::Vector3d>& up = std::nullopt);
+
+/// The same without blockers; the polygons need not be convex.
+[[nodiscard]] ExchangeGeometry open_geometry(std::span<const Point> sender,
+                                             std::span<const Point> target);
 
 /// Three corners of a polygon that span its plane best, in cyclic order.
 [[nodiscard]] std::array<Point, 3> spanning_corners(std::span<const Point> polygon);

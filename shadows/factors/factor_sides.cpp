@@ -195,9 +195,13 @@ FactorScene factor_scene(const Scene& scene,
   add_elsewhere(scene, surfaces, exposed, result);
   add_windows(scene, result);
   result.leaving.assign(surfaces.size(), 0);
+  result.leaving_normal.assign(surfaces.size(), Eigen::Vector3d::Zero());
   for (const FactorSide& side : result.sides) {
     if (leaves_at_once(scene, side.polygon)) {
+      const auto c = spanning_corners(side.polygon);
+      const Eigen::Vector3d normal = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
       result.leaving[side.of] += area_of(side.polygon);
+      result.leaving_normal[side.of] += area_of(side.polygon) * normal;
     }
   }
   std::vector<PointList> faces;

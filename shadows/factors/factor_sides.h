@@ -25,13 +25,21 @@ struct FactorSide {
 enum Elsewhere : int { kOthers = -1, kBacks = -2, kOutside = -3 };
 
 struct FactorScene {
-  std::vector<double> areas;          ///< of the surfaces
-  std::vector<double> buried;         ///< of them: at once inside a closed object
-  std::vector<double> leaving;        ///< of them: on the scene's box, facing out
+  std::vector<double> areas;   ///< of the surfaces
+  std::vector<double> buried;  ///< of them: at once inside a closed object
+  /// Of them: on the scene's box, facing out; their areas, and areas times unit normals.
+  std::vector<double> leaving;
+  std::vector<Eigen::Vector3d> leaving_normal;
   std::vector<FactorSide> sides;      ///< of the surfaces, in their order
   std::vector<FactorSide> elsewhere;  ///< fronts, backs and windows
   std::vector<PointList> blockers;
   double coincident_area = 0;
+
+  /// What leaves at once into the half-space of a unit vector: an element with the normal
+  /// n sends (1 + n . up) / 2 there.
+  [[nodiscard]] double leaving_upwards(int surface, const Eigen::Vector3d& up) const {
+    return 0.5 * (leaving[surface] + leaving_normal[surface].dot(up));
+  }
 };
 
 /// For every face side, 2 f for the side that the file lists counter-clockwise and

@@ -22,8 +22,8 @@ struct RowPart {
     double error;
   };
   std::vector<Entry> entries;
-  double others = 0, outside = 0, backs = 0;  ///< exchange areas
-  double error = 0;                           ///< of these
+  double others = 0, outside = 0, backs = 0, sky = 0;  ///< exchange areas
+  double error = 0;                                    ///< of these
   PairCounts counts;
 };
 
@@ -33,6 +33,7 @@ class Matrix {
   Matrix(const Scene& scene, std::span<const FormFactorSurface> surfaces,
          const FormFactorRequest& request)
       : accuracy_(request.accuracy / kMargin),
+        up_(request.up),
         scene_(factor_scene(scene, surfaces)),
         blockers_(scene, scene_.blockers) {
     for (const FactorSide& s : scene_.sides) sides_.emplace_back(s);
@@ -81,6 +82,7 @@ class Matrix {
   void add_elsewhere(PairFactor& pairs, int i, RowPart& part) const {
     part.backs = scene_.buried[i];
     part.outside = scene_.leaving[i];
+    part.sky = up_ ? scene_.leaving_upwards(i, up_->normalized()) : 0;
     for (const int what : {kOthers, kBacks, kOutside}) {
       std::vector<std::pair<int, int>> facing_pairs;
       for (int s = first_[i]; s < first_[i + 1]; ++s) {
@@ -93,19 +95,27 @@ class Matrix {
       if (facing_pairs.empty()) continue;
       const double tolerance =
           accuracy_ * scene_.areas[i] / static_cast<double>(facing_pairs.size());
-      double sum = 0, error = 0;
+      double sum = 0, error = 0, sky_error = 0;
       for (const auto& [s, t] : facing_pairs) {
         hear_stop();
         const ExchangeArea e = pairs.of(sides_[s], elsewhere_[t], tolerance);
         sum += e.value;
         error += e.error;
+        if (up_ && what == kOutside) {
+          const ExchangeArea sky =
+              pairs.rising(sides_[s], elsewhere_[t], *up_, tolerance);
+          part.sky += sky.value;
+          sky_error += sky.error;
+        }
       }
+      part.error = std::max(part.error, sky_error);
       (what == kOthers ? part.others : what == kBacks ? part.backs : part.outside) += sum;
       part.error = std::max(part.error, error);
     }
   }
 
   double accuracy_;
+  std::optional<Eigen::Vector3d> up_;
   FactorScene scene_;
   PairBlockers blockers_;
   std::vector<PreparedSide> sides_, elsewhere_;
@@ -135,6 +145,7 @@ void fill_rows(const std::vector<RowPart>& parts, FormFactors& result) {
     row.others = part.others / area;
     row.outside = part.outside / area;
     row.backs = part.backs / area;
+    row.sky = part.sky / area;
     result.error_bound = std::max(result.error_bound, part.error / area);
     // Entries to the left of the diagonal were added by the rows before.
     for (const RowPart::Entry& e : part.entries) {

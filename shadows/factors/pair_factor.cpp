@@ -46,6 +46,15 @@ ExchangeArea PairFactor::of(const PreparedSide& a, const PreparedSide& b,
   return result;
 }
 
+ExchangeArea PairFactor::rising(const PreparedSide& a, const PreparedSide& b,
+                                const Eigen::Vector3d& up, double tolerance) {
+  blockers_.between(a, b, between_);
+  if (blockers_.hidden_by_one(a, b, between_)) return {};
+  polygons_.clear();
+  for (const int i : between_) polygons_.push_back(blockers_.polygon(i));
+  return exchange_area(a.polygon, b.polygon, polygons_, tolerance, up);
+}
+
 void PairFactor::decide(const PreparedSide& a, const PreparedSide& b, ExchangeArea& sum) {
   constexpr int kCuts = 4;
   if (blockers_.hidden_by_parts(a.polygon, b.polygon, between_, kCuts)) {

@@ -22,10 +22,12 @@ class PairFactor {
   /// decided exactly where all of both lies before the other's plane.
   [[nodiscard]] ExchangeArea of(const PreparedSide& a, const PreparedSide& b,
                                 double tolerance);
+  /// Of what a sends to b, the part that rises along `up`.
+  [[nodiscard]] ExchangeArea rising(const PreparedSide& a, const PreparedSide& b,
+                                    const Eigen::Vector3d& up, double tolerance);
   [[nodiscard]] const PairCounts& counts() const { return counts_; }
 
  private:
-  [[nodiscard]] bool hidden(const PreparedSide& a, const PreparedSide& b);
   void decide(const PreparedSide& a, const PreparedSide& b, ExchangeArea& sum);
 
   const PairBlockers& blockers_;

@@ -1,0 +1,168 @@
+// `sightline formfactors` as scripts meet it: matrices, points, files, refusals.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+const std::string kRoom = std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj";
+
+std::string contents(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+class CliFormFactors : public testing::Test {
+ protected:
+  CliFormFactors() {
+    std::string pattern = (fs::temp_directory_path() / "sightline-test-XXXXXX").string();
+    folder_ = mkdtemp(pattern.data());
+  }
+  ~CliFormFactors() override { fs::remove_all(folder_); }
+
+  int run(const std::string& arguments) {
+    const std::string command = std::string(SIGHTLINE_PROGRAM) + " formfactors " +
+                                arguments + " >" + file("out") + " 2>" + file("err");
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  }
+  [[nodiscard]] std::string out() const { return contents(folder_ / "out"); }
+  [[nodiscard]] std::string err() const { return contents(folder_ / "err"); }
+  json answer(const std::string& arguments) {
+    EXPECT_EQ(run(arguments + " --json -"), 0) << err();
+    return json::parse(out());
+  }
+  void expect_refused(const std::string& arguments, const std::string& mentioned) {
+    EXPECT_EQ(run(arguments + " --json " + file("x.json")), 2) << arguments;
+    EXPECT_EQ(out(), "") << arguments;
+    EXPECT_NE(err().find(mentioned), std::string::npos) << arguments << ": " << err();
+    EXPECT_FALSE(fs::exists(file("x.json"))) << arguments;
+  }
+  [[nodiscard]] std::string file(const std::string& name) const {
+    return (folder_ / name).string();
+  }
+  std::string file(const std::string& name, const std::string& text) const {
+    std::ofstream(file(name)) << text;
+    return file(name);
+  }
+  /// Two unit squares that face each other at distance 1, and one between them.
+  std::string squares() const {
+    return file("squares.obj",
+                "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                "v 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+                "v .25 .25 .5\nv .75 .25 .5\nv .75 .75 .5\nv .25 .75 .5\n"
+                "g floor\nf 1 2 3 4\ng ceiling\nf 8 7 6 5\ng pane\nf 9 10 11 12\n");
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(CliFormFactors, MatrixInTheOrderAsked) {
+  const json j = answer(squares() + " --groups ceiling,floor --up 0,0,1");
+  EXPECT_EQ(j.at("command"), "formfactors");
+  EXPECT_EQ(j.at("complete"), true);
+  EXPECT_EQ(j.at("groups").dump(), R"(["ceiling","floor"])");
+  EXPECT_NEAR(j.at("matrix")[0][1], 0.099506294598985, 1e-10);
+  EXPECT_NEAR(j.at("matrix")[1][0], 0.099506294598985, 1e-10);
+  EXPECT_EQ(j.at("matrix")[0][0], 0);
+  EXPECT_EQ(j.at("areas")[0], 1);
+  EXPECT_LE(j.at("error_bound").get<double>(), 1e-10);
+  const double seen = 1 - 0.099506294598985;
+  EXPECT_NEAR(j.at("others")[0].get<double>() + j.at("outside")[0].get<double>(), seen,
+              1e-9);
+  EXPECT_NEAR(j.at("backs")[1].get<double>() + j.at("outside")[1].get<double>(), seen,
+              1e-9);
+  EXPECT_NEAR(j.at("sky")[1].get<double>(), j.at("outside")[1].get<double>(), 1e-9);
+  EXPECT_NEAR(j.at("sky")[0].get<double>(), 0, 1e-9);
+}
+
+TEST_F(CliFormFactors, WithoutThePane) {
+  const json j = answer(squares() + " --groups floor,ceiling --without pane");
+  EXPECT_NEAR(j.at("matrix")[0][1], 0.199824895698387, 1e-10);
+}
+
+TEST_F(CliFormFactors, EachFaceHasItsNumberInTheFile) {
+  const json j = answer(squares() + " --groups pane,floor --each face --both-sides pane");
+  EXPECT_EQ(j.at("groups").dump(), R"(["pane/2","pane/2/back","floor/0"])");
+  EXPECT_GT(j.at("matrix")[1][2], 0.3);
+  EXPECT_EQ(j.at("matrix")[0][2], 0);
+}
+
+TEST_F(CliFormFactors, TableAndSparseMatrix) {
+  ASSERT_EQ(run(squares() + " --csv " + file("f.csv") + " --npz " + file("f.npz")), 0)
+      << err();
+  const std::string csv = contents(file("f.csv"));
+  EXPECT_TRUE(csv.starts_with("from,to,factor\nfloor,ceiling,0.0995062945989")) << csv;
+  const std::string npz = contents(file("f.npz"));
+  EXPECT_TRUE(npz.starts_with("PK\x03\x04"));
+  for (const char* name :
+       {"data.npy", "indices.npy", "indptr.npy", "shape.npy", "format.npy", "areas.npy",
+        "names.npy", "others.npy", "outside.npy", "backs.npy"}) {
+    EXPECT_NE(npz.find(name), std::string::npos) << name;
+  }
+  EXPECT_NE(out().find("3 surfaces"), std::string::npos) << out();
+}
+
+TEST_F(CliFormFactors, FromPoints) {
+  const std::string points = file("p.txt", "0.5,0.5,0,0,0,1\n0.5 0.5 1 0 0 -2\n");
+  const json j =
+      answer(squares() + " --without pane --at " + points + " --csv " + file("p.csv"));
+  ASSERT_EQ(j.at("points").size(), 2U);
+  const json& p = j.at("points")[0];
+  EXPECT_EQ(p.at("factors").size(), 2U);
+  EXPECT_NEAR(p.at("factors")[1], 0.239456470461, 1e-12);
+  EXPECT_NEAR(p.at("outside"), 1 - 0.239456470461, 1e-12);
+  EXPECT_EQ(p.at("others"), 0);
+  EXPECT_TRUE(contents(file("p.csv"))
+                  .starts_with("point,floor,ceiling,others,outside,backs\n0,"));
+}
+
+TEST_F(CliFormFactors, Enforced) {
+  const json j = answer(squares() + " --enforce");
+  EXPECT_LE(j.at("enforced").at("moved").get<double>(), 1e-9);
+  EXPECT_NEAR(j.at("enforced").at("matrix")[0][1], 0.099506294598985, 1e-9);
+}
+
+TEST_F(CliFormFactors, ABudgetThatEnds) {
+  EXPECT_EQ(run(kRoom + " --each face --budget 0.05 --json " + file("a.json")), 3);
+  if (fs::exists(file("a.json"))) {
+    const json j = json::parse(contents(file("a.json")));
+    EXPECT_EQ(j.at("complete"), false);
+    EXPECT_TRUE(j.at("matrix").back().is_null());
+  }
+}
+
+TEST_F(CliFormFactors, RefusesWhatCannotBe) {
+  expect_refused(squares() + " --groups flor", "flor");
+  expect_refused(squares() + " --accuracy 0", "--accuracy");
+  expect_refused(squares() + " --each polygon", "--each");
+  expect_refused(squares() + " --up 0,0,0", "--up");
+  expect_refused(squares() + " --npz -", "--npz");
+  expect_refused(squares() + " --both-sides nobody", "nobody");
+  const std::string points = file("p.txt", "0.5,0.5,0\n");
+  expect_refused(squares() + " --at " + points, "normal");
+  expect_refused(squares() + " --at " + points + " --enforce", "--enforce");
+}
+
+TEST_F(CliFormFactors, HelpTeaches) {
+  ASSERT_EQ(run("--help"), 0);
+  for (const char* word : {"--groups", "--accuracy", "--both-sides", "--enforce", "--npz",
+                           "sky view factor", "docs/form_factors.md", "Examples:"}) {
+    EXPECT_NE(out().find(word), std::string::npos) << word;
+  }
+}
+
+}  // namespace
