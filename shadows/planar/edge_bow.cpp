@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "shadows/planar/arc_box.h"
+#include "shadows/planar/arcs/arc_box.h"
 
 namespace sightline::internal {
 namespace {

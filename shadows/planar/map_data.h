@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "shadows/planar/plane_arc.h"
+#include "shadows/planar/arcs/plane_arc.h"
 
 namespace sightline::internal {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <numeric>
 
-#include "shadows/planar/candidate_pairs.h"
+#include "shadows/planar/arcs/candidate_pairs.h"
 #include "shadows/planar/half_edge_order.h"
 #include "shadows/planar/union_find.h"
 
@@ -280,6 +280,7 @@ class MapBuilder {
         const double error =
             std::max({r->x.hi - x, x - r->x.lo, r->y.hi - y, y - r->y.lo});
         if (error < best.error) best = PlanarVertex{{x, y}, error};
+        if (precise && best.error <= most) break;
       }
       if (best.error <= most) break;
     }

@@ -2,7 +2,7 @@
 
 #pragma once
 
-#include "shadows/planar/crossings.h"
+#include "shadows/planar/arcs/crossings.h"
 #include "shadows/planar/map_data.h"
 
 namespace sightline::internal {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "shadows/planar/arc_box.h"
-#include "shadows/planar/ball_roots.h"
+#include "shadows/planar/arcs/arc_box.h"
+#include "shadows/planar/arcs/ball_roots.h"
 
 namespace sightline::internal {
 namespace {

@@ -265,6 +265,75 @@ TEST(PlanarMapOfConics, CirclesAndTheirCommonChord) {
   EXPECT_EQ(of_ten, 2);
 }
 
+// An ellipse in a circle, F + L^2 25/4 = 0 in F = x^2 + y^2 - 25 = 0, touches it where L
+// = x - y - 2 = 0: at irrational points, roots of a polynomial of degree 4.
+TEST(PlanarMapOfConics, TouchingInIrrationalPoints) {
+  std::vector<PlaneCurve> curves;
+  append_circle(curves, 1, {0, 0}, 5);
+  // The second crossing with the line y = m x through (0, 0); and with x = m y.
+  const Rational a(25, 4);
+  curves.push_back({2,
+                    {25, -25, 0},
+                    {0, 25, -25},
+                    {1 + a, -2 * a, 1 + a},
+                    rational_end(-50),
+                    rational_end(50)});
+  curves.push_back({3,
+                    {0, -25, 25},
+                    {-25, 25, 0},
+                    {1 + a, -2 * a, 1 + a},
+                    rational_end(Rational(-1, 50)),
+                    rational_end(Rational(1, 50))});
+  for (const bool with_chord : {false, true}) {
+    SCOPED_TRACE(with_chord);
+    if (with_chord) curves.push_back(segment(4, -4, -6, 6, 4));
+    const PlanarMap map(curves, square(-8, 8));
+    expect_consistent(map, 256);
+    EXPECT_EQ(counts(map), with_chord ? (Counts{14, 17, 5}) : (Counts{12, 14, 4}));
+    double error = 0;
+    for (int v = 0; v < map.vertex_count(); ++v) {
+      error = std::max(error, map.vertex(v).error);
+    }
+    EXPECT_LE(error, 8 * kVertexError);
+  }
+}
+
+// Is p strictly between the chord y = 0 and the bowl y = a x (1 - x)?
+bool inside_bowl(const PlanePoint& p, const Rational& a) {
+  return p[1] > 0 && p[1] < a * p[0] * (1 - p[0]);
+}
+
+// Faces that are thinner than doubles tell apart, with a segment alone in one of them.
+TEST(PlanarMapOfConics, FacesTooThinForDoubles) {
+  for (const int bits : {30, 60, 90, 300}) {
+    SCOPED_TRACE(bits);
+    const Rational a(1, Integer(1) << bits);
+    const PlanePoint shift{Rational(1, 3), Rational(1, 7)};
+    // y = a x (1 - x), moved by `shift`.
+    const RationalQuadratic x{shift[0], 1, 0}, y{shift[1], a, -a}, w{1, 0, 0};
+    const PlanePoint left = shift, right{shift[0] + 1, shift[1]};
+    const std::vector curves{
+        PlaneCurve{1, x, y, w, rational_end(0), rational_end(1)},
+        plane_segment(2, left, right),
+        plane_segment(3, {shift[0] + Rational(1, 4), shift[1] + a / 16},
+                      {shift[0] + Rational(3, 4), shift[1] + a / 15})};
+    const PlanarMap map(curves, square(0, 2));
+    EXPECT_EQ(counts(map), (Counts{4 + 2 + 2, 4 + 2 + 1, 2}));
+    expect_valid(map);
+    int thin = 0;
+    for (int f = 0; f < 2; ++f) {
+      PlanePoint p = map.interior_point(f);
+      p[0] -= shift[0];
+      p[1] -= shift[1];
+      if (inside_bowl(p, a)) {
+        ++thin;
+        EXPECT_EQ(map.holes(f).size(), 1u);
+      }
+    }
+    EXPECT_EQ(thin, 1);
+  }
+}
+
 TEST(PlanarMapOfConics, PiecesThatCoincideAreOneEdge) {
   CurveGenerator generate(1, 10);
   const auto whole = CurveGenerator::bezier(1, {{{1, 1}, {5, 9}, {9, 2}}}, {2, 1, 3});

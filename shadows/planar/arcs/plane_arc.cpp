@@ -1,4 +1,4 @@
-#include "shadows/planar/plane_arc.h"
+#include "shadows/planar/arcs/plane_arc.h"
 
 #include <oneapi/tbb/parallel_for.h>
 

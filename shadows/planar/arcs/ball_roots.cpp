@@ -1,4 +1,4 @@
-#include "shadows/planar/ball_roots.h"
+#include "shadows/planar/arcs/ball_roots.h"
 
 #include <cmath>
 

@@ -5,7 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "shadows/planar/plane_support.h"
+#include "shadows/planar/arcs/plane_support.h"
 
 namespace sightline::internal {
 

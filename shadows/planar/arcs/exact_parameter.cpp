@@ -1,4 +1,4 @@
-#include "shadows/planar/exact_parameter.h"
+#include "shadows/planar/arcs/exact_parameter.h"
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>

@@ -7,7 +7,7 @@
 
 #pragma once
 
-#include "shadows/planar/plane_support.h"
+#include "shadows/planar/arcs/plane_support.h"
 
 namespace sightline::internal {
 

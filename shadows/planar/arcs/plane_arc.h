@@ -7,11 +7,11 @@
 #include <span>
 #include <vector>
 
-#include "shadows/planar/arc_box.h"
-#include "shadows/planar/arc_filter.h"
-#include "shadows/planar/exact_parameter.h"
+#include "shadows/planar/arcs/arc_box.h"
+#include "shadows/planar/arcs/arc_filter.h"
+#include "shadows/planar/arcs/exact_parameter.h"
+#include "shadows/planar/arcs/plane_support.h"
 #include "shadows/planar/plane_curve.h"
-#include "shadows/planar/plane_support.h"
 
 namespace sightline::internal {
 

@@ -1,4 +1,4 @@
-#include "shadows/planar/arc_box.h"
+#include "shadows/planar/arcs/arc_box.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "shadows/planar/candidate_pairs.h"
+#include "shadows/planar/arcs/candidate_pairs.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "shadows/planar/arc_box.h"
+#include "shadows/planar/arcs/arc_box.h"
 
 namespace sightline::internal {
 namespace {

@@ -1,8 +1,9 @@
-#include "shadows/planar/crossings.h"
+#include "shadows/planar/arcs/crossings.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "shadows/planar/ball_roots.h"
+#include "shadows/planar/arcs/ball_roots.h"
 
 namespace sightline::internal {
 namespace {
@@ -211,7 +212,9 @@ void append_exactly(const ArcPair& pair, const std::vector<QuadraticRoot>& known
   const Substitution<Ring> back = substitute<Ring>(pair.on_b(), pair.on_a());
   const auto window = [](const PlaneArc& arc) {
     const double from = arc.ends[0].at.range.lo, to = arc.ends[1].at.range.hi;
-    const double margin = 0x1p-10 * (to - from);
+    // Wider than the enclosures of the ends.
+    const double margin = 0x1p-10 * (to - from) +
+                          0x1p-40 * std::max({std::abs(from), std::abs(to), 0x1p-20});
     return std::array{outwards(from, -margin), outwards(to, margin)};
   };
   const auto [a_lo, a_hi] = window(pair.a);

@@ -10,7 +10,7 @@
 
 #include <array>
 
-#include "shadows/planar/exact_parameter.h"
+#include "shadows/planar/arcs/exact_parameter.h"
 #include "shadows/planar/plane_curve.h"
 
 namespace sightline::internal {

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "shadows/planar/exact_parameter.h"
+#include "shadows/planar/arcs/exact_parameter.h"
 
 namespace sightline::internal {
 

@@ -1,9 +1,9 @@
-#include "shadows/planar/arc_filter.h"
+#include "shadows/planar/arcs/arc_filter.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "shadows/planar/arc_box.h"
+#include "shadows/planar/arcs/arc_box.h"
 
 namespace sightline::internal {
 namespace {
