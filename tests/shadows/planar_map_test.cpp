@@ -442,7 +442,64 @@ TEST_P(PlanarMapOfRandomCurves, IsConsistentAndCountedRight) {
   }
 }
 
+// ---- edges
+
+double value(const std::array<Rational, 6>& f, const Eigen::Vector2d& p) {
+  std::array<double, 6> c;
+  for (int i = 0; i < 6; ++i) c[i] = nearest_double(f[i]);
+  return c[0] * p.x() * p.x() + c[1] * p.x() * p.y() + c[2] * p.y() * p.y() +
+         c[3] * p.x() + c[4] * p.y() + c[5];
+}
+
+// To first order.
+double distance(const std::array<Rational, 6>& f, const Eigen::Vector2d& p) {
+  constexpr double h = 1e-4;
+  const Eigen::Vector2d gradient(
+      value(f, p + Eigen::Vector2d(h, 0)) - value(f, p - Eigen::Vector2d(h, 0)),
+      value(f, p + Eigen::Vector2d(0, h)) - value(f, p - Eigen::Vector2d(0, h)));
+  return std::abs(value(f, p)) / (gradient.norm() / (2 * h));
+}
+
+TEST(PlanarMapEdges, PointsPartsAndDrawingsLieOnTheirCurves) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto curves =
+        random_curves(seed % 2 ? Kind::Mixed : Kind::Overlapping, seed, 14, 30);
+    const PlanarMap map(curves, square(0, 30));
+    for (int e = 0; e < map.edge_count(); ++e) {
+      const std::array<Rational, 6> f = map.implicit_form(e);
+      const PlanePoint p = map.exact_point(e);
+      EXPECT_EQ(f[0] * p[0] * p[0] + f[1] * p[0] * p[1] + f[2] * p[1] * p[1] +
+                    f[3] * p[0] + f[4] * p[1] + f[5],
+                0);
+      EXPECT_LT(distance(f, map.point(e, 0.3)), 1e-10);
+      const auto line = map.polyline(e, 1e-3);
+      EXPECT_EQ(line.front(), map.vertex(map.origin(2 * e)).at);
+      EXPECT_EQ(line.back(), map.vertex(map.target(2 * e)).at);
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        EXPECT_LT(distance(f, line[i]), 1e-10);
+        EXPECT_LT(distance(f, 0.5 * (line[i] + line[i + 1])), 1.1e-3);
+      }
+      for (const int id : map.curves(e)) {
+        const CurvePart part = map.part(e, id);
+        const naive::Curve curve = naive::curve_of(curves[id]);
+        EXPECT_LT((curve.at(part.from) - map.vertex(map.origin(2 * e)).at).norm(), 1e-9);
+        EXPECT_LT((curve.at(part.to) - map.vertex(map.target(2 * e)).at).norm(), 1e-9);
+      }
+    }
+  }
+}
+
 // ---- without
+
+TEST(PlanarMapWithout, KeepsCornersAndEndsOfCurves) {
+  // A corner in the middle of a side; two segments that continue one another.
+  const PlaneOutline outline{{{0, 0}, {2, 0}, {4, 0}, {4, 4}, {0, 4}}};
+  const PlanarMap map(std::vector{segment(1, 1, 1, 2, 1), segment(2, 2, 1, 3, 1)},
+                      outline);
+  EXPECT_EQ(counts(map), (Counts{5 + 3, 5 + 2, 1}));
+  EXPECT_EQ(counts(map.without({}).map), counts(map));
+}
 
 TEST(PlanarMapWithout, JoinsEdgesAndFaces) {
   // Two crossing segments and a third that ends on one of them.

@@ -16,7 +16,7 @@ namespace sightline::internal {
 
 /// A point, enclosed.
 struct PointRange {
-  Range x, y;
+  DoubleRange x, y;
 };
 /// nullopt where the enclosure of w contains 0.
 [[nodiscard]] std::optional<PointRange> point_range(const PlaneSupport& support,
@@ -25,6 +25,6 @@ struct PointRange {
 /// Contains the stretch.  nullopt where a control point may have no positive weight: of
 /// a short enough stretch all have.
 [[nodiscard]] std::optional<PointRange> box_of(const PlaneSupport& support,
-                                               const Range& s);
+                                               const DoubleRange& s);
 
 }  // namespace sightline::internal

@@ -17,7 +17,7 @@ namespace sightline::internal {
 
 /// A position on an arc: enclosed, and exactly once somebody asks.
 struct ArcParameter {
-  Range range;
+  DoubleRange range;
   /// The support that crosses there.  -1: `exact` is known.
   int crossing = -1;
   std::shared_ptr<const ExactParameter> exact;
@@ -36,7 +36,7 @@ struct ArcEnd {
   SurdPoint point;
   BallNumber parameter;
   BallNumber x, y, w;  ///< homogeneous
-  Range box_x, box_y;
+  DoubleRange box_x, box_y;
 };
 
 struct PlaneArc {
