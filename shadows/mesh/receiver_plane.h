@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "linespace/light/source_patches.h"
-#include "shadows/curves/plane_curve.h"
+#include "shadows/planar/plane_curve.h"
 #include "shadows/shadow_mesh.h"
 
 namespace sightline::internal {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "shadows/curves/arc_box.h"
+#include "shadows/planar/arcs/arc_box.h"
 
 namespace sightline::internal {
 namespace {
@@ -55,7 +55,7 @@ double EdgeBow::height() const {
   return length > 0 ? std::abs(cross2(chord, shoulder)) / length : shoulder.norm();
 }
 
-EdgeBow edge_bow(const MapData& map, int e) {
+EdgeBow edge_bow(const PlanarData& map, int e) {
   const auto& [from, to] = map.edges[e].ends;
   const Eigen::Vector2d p = map.vertices[from].at, q = map.vertices[to].at;
   const PlaneSupport& support = map.support_of_edge(e);

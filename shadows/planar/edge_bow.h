@@ -4,7 +4,7 @@
 
 #include <Eigen/Core>
 
-#include "shadows/planar/map_data.h"
+#include "shadows/planar/planar_data.h"
 
 namespace sightline::internal {
 
@@ -21,7 +21,7 @@ struct EdgeBow {
   /// Distance from the chord of the point that is furthest from it.
   [[nodiscard]] double height() const;
 };
-[[nodiscard]] EdgeBow edge_bow(const MapData& map, int e);
+[[nodiscard]] EdgeBow edge_bow(const PlanarData& map, int e);
 
 /// The area between a curve and its chord, positive where the curve, seen along the
 /// chord, lies on its right: what it adds to a face on its left.  Exact to some 1e-15 of

@@ -98,7 +98,7 @@ std::array<Rational, 6> PlanarMap::implicit_form(int e) const {
 
 CurvePart PlanarMap::part(int e, int id) const {
   const PlanarGeometry& geometry = *data_->geometry;
-  const MapEdge& edge = data_->edges[e];
+  const PlanarEdge& edge = data_->edges[e];
   const PlaneArc& own = geometry.all.arcs[edge.arc];
   const std::array<Eigen::Vector2d, 2> at{vertex(edge.ends[0]).at,
                                           vertex(edge.ends[1]).at};

@@ -36,7 +36,7 @@ struct Stretch {
 };
 
 // The widest stretch in face f, by hits with all its edges.
-std::optional<Stretch> widest(const MapData& map, int f, std::vector<ScanHit> hits,
+std::optional<Stretch> widest(const PlanarData& map, int f, std::vector<ScanHit> hits,
                               bool horizontal, double at) {
   std::ranges::sort(hits, {}, [](const ScanHit& h) { return h.range.lo; });
   std::optional<Stretch> best;
@@ -51,7 +51,7 @@ std::optional<Stretch> widest(const MapData& map, int f, std::vector<ScanHit> hi
 }
 
 // The largest gaps between the coordinates of what bounds the face, largest first.
-std::vector<std::array<double, 2>> gaps(const MapData& map, std::span<const int> edges,
+std::vector<std::array<double, 2>> gaps(const PlanarData& map, std::span<const int> edges,
                                         int axis) {
   std::vector<double> at;
   for (const int e : edges) {
@@ -75,7 +75,8 @@ PlanePoint on_line(bool horizontal, const Rational& at, const Rational& position
 }
 
 // Through points of an edge of the face, until the line meets all its edges properly.
-PlanePoint exact_interior_point(const MapData& map, int f, std::span<const int> edges) {
+PlanePoint exact_interior_point(const PlanarData& map, int f,
+                                std::span<const int> edges) {
   const int e = map.faces[f].outer >> 1;
   const auto& supports = map.geometry->all.supports;
   const int own = map.geometry->all.arcs[map.edges[e].arc].support;
@@ -102,7 +103,7 @@ PlanePoint exact_interior_point(const MapData& map, int f, std::span<const int> 
   }
 }
 
-double signed_area(const PlanarMap& map, const MapData& data, int first) {
+double signed_area(const PlanarMap& map, const PlanarData& data, int first) {
   const Eigen::Vector2d origin = map.vertex(map.origin(first)).at;
   double sum = 0;
   int h = first;

@@ -25,7 +25,7 @@ ExactParameter HalfEdgeOrder::exact_position(const Direction& d) const {
 }
 
 HalfEdgeOrder::Direction HalfEdgeOrder::direction(int half_edge) const {
-  const MapEdge& edge = edges_[half_edge >> 1];
+  const PlanarEdge& edge = edges_[half_edge >> 1];
   Direction d;
   d.half_edge = half_edge;
   d.arc = edge.arc;

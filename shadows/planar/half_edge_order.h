@@ -2,7 +2,7 @@
 
 #pragma once
 
-#include "shadows/planar/map_data.h"
+#include "shadows/planar/planar_data.h"
 
 namespace sightline::internal {
 
@@ -10,7 +10,7 @@ namespace sightline::internal {
 class HalfEdgeOrder {
  public:
   /// Keeps references.
-  HalfEdgeOrder(const PlanarGeometry& geometry, const std::vector<MapEdge>& edges)
+  HalfEdgeOrder(const PlanarGeometry& geometry, const std::vector<PlanarEdge>& edges)
       : geometry_(geometry), edges_(edges) {}
 
   /// Counter-clockwise, from the direction (1, 0) on.
@@ -36,7 +36,7 @@ class HalfEdgeOrder {
   [[nodiscard]] ExactParameter exact_position(const Direction& d) const;
 
   const PlanarGeometry& geometry_;
-  const std::vector<MapEdge>& edges_;
+  const std::vector<PlanarEdge>& edges_;
 };
 
 }  // namespace sightline::internal

@@ -6,9 +6,9 @@
 #include <map>
 #include <numeric>
 
-#include "linespace/picture/classes.h"
-#include "shadows/planar/candidate_pairs.h"
+#include "shadows/planar/arcs/candidate_pairs.h"
 #include "shadows/planar/half_edge_order.h"
+#include "linespace/picture/classes.h"
 
 namespace sightline::internal {
 namespace {
@@ -46,13 +46,13 @@ class MapBuilder {
  public:
   explicit MapBuilder(PlaneArcs&& arcs) : all_(std::move(arcs)), entries_(arc_count()) {}
 
-  MapData build(std::span<const PlaneCurve> curves, CrossingCounts& counts) {
+  PlanarData build(std::span<const PlaneCurve> curves, CrossingCounts& counts) {
     find_crossings(counts);
     add_member_ends();
     sort_entries();
     number_vertices();
     add_edges(curves);
-    MapData map;
+    PlanarData map;
     auto geometry = std::make_shared<PlanarGeometry>();
     geometry->all = std::move(all_);
     geometry->curves.assign(curves.begin(), curves.end());
@@ -185,7 +185,7 @@ class MapBuilder {
           corners_[a].push_back(to);
         }
         for (int k = from; k < to; ++k) {
-          MapEdge& edge = edges_[first + static_cast<std::size_t>(k)];
+          PlanarEdge& edge = edges_[first + static_cast<std::size_t>(k)];
           if (members[m].curve >= 0) {
             ids_[first + static_cast<std::size_t>(k)].push_back(
                 curves[members[m].curve].id);
@@ -201,8 +201,8 @@ class MapBuilder {
   }
 
   // Of two edges between the same vertices on one conic: are they the same piece?
-  [[nodiscard]] bool same_piece(const MapEdge& e, const MapEdge& f) {
-    const auto at = [&](const MapEdge& g, int end) -> const ExactParameter& {
+  [[nodiscard]] bool same_piece(const PlanarEdge& e, const PlanarEdge& f) {
+    const auto at = [&](const PlanarEdge& g, int end) -> const ExactParameter& {
       return exact(all_.supports, all_.arcs[g.arc].support,
                    positions_[g.arc][g.position[end]]);
     };
@@ -246,7 +246,7 @@ class MapBuilder {
     ids_.resize(kept);
   }
 
-  void add_vertices(MapData& map) const {
+  void add_vertices(PlanarData& map) const {
     std::vector<std::vector<int>> stars(static_cast<std::size_t>(vertex_count_));
     for (std::size_t e = 0; e < map.edges.size(); ++e) {
       for (const int end : {0, 1}) {
@@ -264,7 +264,7 @@ class MapBuilder {
   }
 
   // The best of the enclosures that the edges at a vertex give.
-  static PlanarVertex rounded_vertex(const MapData& map, const std::vector<int>& star,
+  static PlanarVertex rounded_vertex(const PlanarData& map, const std::vector<int>& star,
                                      double most) {
     PlanarVertex best{{0, 0}, std::numeric_limits<double>::infinity()};
     for (const bool precise : {false, true}) {
@@ -280,6 +280,7 @@ class MapBuilder {
         const double error =
             std::max({r->x.hi - x, x - r->x.lo, r->y.hi - y, y - r->y.lo});
         if (error < best.error) best = PlanarVertex{{x, y}, error};
+        if (precise && best.error <= most) break;
       }
       if (best.error <= most) break;
     }
@@ -297,14 +298,14 @@ class MapBuilder {
   std::unique_ptr<Classes> points_at_;
   int points_ = 0;
   int vertex_count_ = 0;
-  std::vector<MapEdge> edges_;
+  std::vector<PlanarEdge> edges_;
   std::vector<std::vector<int>> ids_;  // of an edge
 };
 
 }  // namespace
 
-MapData vertices_and_edges(std::span<const PlaneCurve> curves,
-                           const PlaneOutline& outline, CrossingCounts& counts) {
+PlanarData vertices_and_edges(std::span<const PlaneCurve> curves,
+                              const PlaneOutline& outline, CrossingCounts& counts) {
   return MapBuilder(plane_arcs(curves, outline)).build(curves, counts);
 }
 

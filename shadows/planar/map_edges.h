@@ -2,14 +2,14 @@
 
 #pragma once
 
-#include "shadows/planar/crossings.h"
-#include "shadows/planar/map_data.h"
+#include "shadows/planar/arcs/crossings.h"
+#include "shadows/planar/planar_data.h"
 
 namespace sightline::internal {
 
 /// Everything but faces.
-[[nodiscard]] MapData vertices_and_edges(std::span<const PlaneCurve> curves,
-                                         const PlaneOutline& outline,
-                                         CrossingCounts& counts);
+[[nodiscard]] PlanarData vertices_and_edges(std::span<const PlaneCurve> curves,
+                                            const PlaneOutline& outline,
+                                            CrossingCounts& counts);
 
 }  // namespace sightline::internal

@@ -5,16 +5,16 @@
 #include <memory>
 #include <numeric>
 
-#include "linespace/picture/classes.h"
 #include "linespace/scene.h"
 #include "shadows/planar/scan_line.h"
+#include "linespace/picture/classes.h"
 
 namespace sightline::internal {
 namespace {
 
 class FaceFinder {
  public:
-  explicit FaceFinder(MapData& map)
+  explicit FaceFinder(PlanarData& map)
       : map_(map), components_(map.vertices.size()), all_edges_(map.edges.size()) {
     std::iota(all_edges_.begin(), all_edges_.end(), 0);
   }
@@ -22,7 +22,7 @@ class FaceFinder {
   void run() {
     link();
     trace();
-    for (const MapEdge& e : map_.edges) components_.join(e.ends[0], e.ends[1]);
+    for (const PlanarEdge& e : map_.edges) components_.join(e.ends[0], e.ends[1]);
     nest();
     number();
   }
@@ -149,13 +149,13 @@ class FaceFinder {
     std::vector<char> is_outside(first_.size() + 1, 0);
     is_outside[faces_->root(plane())] = 1;
     for (const int e : all_edges_) {
-      const MapEdge& edge = map_.edges[e];
+      const PlanarEdge& edge = map_.edges[e];
       if (!edge.outline) continue;
       const int inner = 2 * e + (edge.inside_of_first ? 0 : 1);
       is_outside[faces_->root(cycle_[inner ^ 1])] = 1;
     }
     for (std::size_t h = 0; h < cycle_.size(); ++h) {
-      const MapEdge& edge = map_.edges[h >> 1];
+      const PlanarEdge& edge = map_.edges[h >> 1];
       const bool outer = edge.outline && edge.inside_of_first == ((h & 1) == 1);
       if (!outer && is_outside[faces_->root(cycle_[h])]) {
         throw InvalidInput("a curve of a planar map leaves the outline");
@@ -176,7 +176,7 @@ class FaceFinder {
         number[root] = static_cast<int>(map_.faces.size());
         map_.faces.push_back({-1, {}});
       }
-      MapFace& face = map_.faces[number[root]];
+      PlanarFace& face = map_.faces[number[root]];
       if (outward_[c]) {
         face.holes.push_back(first_[c]);
       } else {
@@ -189,17 +189,17 @@ class FaceFinder {
     }
   }
 
-  MapData& map_;
+  PlanarData& map_;
   Classes components_;
   std::vector<int> all_edges_;
-  std::vector<int> cycle_;          // of a half-edge
-  std::vector<int> first_;          // half-edge of a cycle
-  std::vector<char> outward_;       // of a cycle: it faces the outside of its component
+  std::vector<int> cycle_;            // of a half-edge
+  std::vector<int> first_;            // half-edge of a cycle
+  std::vector<char> outward_;         // of a cycle: it faces the outside of its component
   std::unique_ptr<Classes> faces_;  // of cycles, and the plane
 };
 
 }  // namespace
 
-void find_faces(MapData& map) { FaceFinder(map).run(); }
+void find_faces(PlanarData& map) { FaceFinder(map).run(); }
 
 }  // namespace sightline::internal

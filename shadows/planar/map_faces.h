@@ -2,12 +2,12 @@
 
 #pragma once
 
-#include "shadows/planar/map_data.h"
+#include "shadows/planar/planar_data.h"
 
 namespace sightline::internal {
 
 /// Sets `next`, `face` and `faces`.  Requires everything else, each vertex with an edge.
 /// Throws InvalidInput where an edge lies outside the outline.
-void find_faces(MapData& map);
+void find_faces(PlanarData& map);
 
 }  // namespace sightline::internal

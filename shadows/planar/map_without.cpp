@@ -2,17 +2,17 @@
 
 #include <algorithm>
 
-#include "linespace/picture/classes.h"
 #include "linespace/scene.h"
 #include "shadows/planar/map_faces.h"
 #include "shadows/planar/planar_map.h"
+#include "linespace/picture/classes.h"
 
 namespace sightline::internal {
 namespace {
 
 class Reduction {
  public:
-  Reduction(const MapData& old, std::span<const int> edges)
+  Reduction(const PlanarData& old, std::span<const int> edges)
       : old_(old), removed_(old.edges.size(), 0), degree_(old.vertices.size(), 0) {
     for (const int e : edges) {
       if (old.edges[e].outline) throw InvalidInput("a planar map keeps its outline");
@@ -24,7 +24,7 @@ class Reduction {
     }
   }
 
-  MapData run() {
+  PlanarData run() {
     map_.geometry = old_.geometry;
     join_edges();
     number_vertices();
@@ -56,8 +56,8 @@ class Reduction {
  private:
   // f follows e on one curve, and nothing else is left where they meet.
   [[nodiscard]] bool continues(int e, int f) const {
-    const MapEdge& first = old_.edges[e];
-    const MapEdge& second = old_.edges[f];
+    const PlanarEdge& first = old_.edges[e];
+    const PlanarEdge& second = old_.edges[f];
     return first.arc == second.arc && first.ends[1] == second.ends[0] &&
            first.position[1] == second.position[0] && degree_[first.ends[1]] == 2 &&
            first.outline == second.outline &&
@@ -76,7 +76,7 @@ class Reduction {
     for (int e = 0; e < static_cast<int>(old_.edges.size()); ++e) {
       if (removed_[e]) continue;
       if (last >= 0 && continues(last, e)) {
-        MapEdge& joined = map_.edges.back();
+        PlanarEdge& joined = map_.edges.back();
         joined.ends[1] = old_.edges[e].ends[1];
         joined.position[1] = old_.edges[e].position[1];
         degree_[old_.edges[e].ends[0]] = 0;
@@ -103,22 +103,22 @@ class Reduction {
       }
       map_.stars.add(star);
     }
-    for (MapEdge& e : map_.edges) {
+    for (PlanarEdge& e : map_.edges) {
       for (int& v : e.ends) v = number[v];
     }
   }
 
-  const MapData& old_;
+  const PlanarData& old_;
   std::vector<char> removed_;
   std::vector<int> degree_;  // 0 also of a vertex that joined two edges
-  MapData map_;
+  PlanarData map_;
 };
 
 }  // namespace
 
 ReducedMap PlanarMap::without(std::span<const int> edges) const {
   Reduction reduction(*data_, edges);
-  auto map = std::make_shared<const MapData>(reduction.run());
+  auto map = std::make_shared<const PlanarData>(reduction.run());
   return {PlanarMap(std::move(map)), reduction.edge_of, reduction.face_of()};
 }
 

@@ -7,7 +7,7 @@ namespace sightline::internal {
 
 PlanarMap::PlanarMap(std::span<const PlaneCurve> curves, const PlaneOutline& outline) {
   CrossingCounts counts;
-  auto map = std::make_shared<MapData>(vertices_and_edges(curves, outline, counts));
+  auto map = std::make_shared<PlanarData>(vertices_and_edges(curves, outline, counts));
   find_faces(*map);
   data_ = std::move(map);
 }

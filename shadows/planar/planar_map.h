@@ -24,8 +24,8 @@
 #include <span>
 #include <vector>
 
-#include "shadows/curves/plane_curve.h"
-#include "shadows/planar/map_data.h"
+#include "shadows/planar/planar_data.h"
+#include "shadows/planar/plane_curve.h"
 
 namespace sightline::internal {
 
@@ -113,9 +113,9 @@ class PlanarMap {
   [[nodiscard]] ReducedMap without(std::span<const int> edges) const;
 
  private:
-  explicit PlanarMap(std::shared_ptr<const MapData> data) : data_(std::move(data)) {}
+  explicit PlanarMap(std::shared_ptr<const PlanarData> data) : data_(std::move(data)) {}
 
-  std::shared_ptr<const MapData> data_;
+  std::shared_ptr<const PlanarData> data_;
 };
 
 /// A map and what became of the edges and faces of the one that it was made from.

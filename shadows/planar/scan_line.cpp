@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "shadows/curves/arc_box.h"
-#include "shadows/curves/ball_roots.h"
+#include "shadows/planar/arcs/arc_box.h"
+#include "shadows/planar/arcs/ball_roots.h"
 
 namespace sightline::internal {
 namespace {
@@ -32,8 +32,8 @@ PlaneSupport ScanLine::support() const {
                                  : std::array<Integer, 3>{m, 0, -n});
 }
 
-ScanIndex::ScanIndex(const MapData& map) {
-  std::vector<Range> x, y;
+ScanIndex::ScanIndex(const PlanarData& map) {
+  std::vector<DoubleRange> x, y;
   constexpr double kFar = std::numeric_limits<double>::max();
   for (int e = 0; e < static_cast<int>(map.edges.size()); ++e) {
     const PlaneSupport& support = map.support_of_edge(e);
@@ -48,18 +48,18 @@ ScanIndex::ScanIndex(const MapData& map) {
     } else {
       box = box_of(support, {map.position(e, 0).range.lo, map.position(e, 1).range.hi});
     }
-    x.push_back(box ? box->x : Range{-kFar, kFar});
-    y.push_back(box ? box->y : Range{-kFar, kFar});
+    x.push_back(box ? box->x : DoubleRange{-kFar, kFar});
+    y.push_back(box ? box->y : DoubleRange{-kFar, kFar});
   }
   by_x_ = rows(std::move(x));
   by_y_ = rows(std::move(y));
 }
 
-ScanIndex::Rows ScanIndex::rows(std::vector<Range> ranges) {
+ScanIndex::Rows ScanIndex::rows(std::vector<DoubleRange> ranges) {
   Rows out;
   // The middles of edges; what lies further out is counted to the first or last row.
   double from = std::numeric_limits<double>::max(), to = -from;
-  for (const Range& r : ranges) {
+  for (const DoubleRange& r : ranges) {
     from = std::min(from, r.middle());
     to = std::max(to, r.middle());
   }
@@ -89,13 +89,13 @@ std::vector<int> ScanIndex::edges_at(bool horizontal, double at) const {
   return out;
 }
 
-std::optional<std::vector<ScanHit>> hits_by_doubles(const MapData& map,
+std::optional<std::vector<ScanHit>> hits_by_doubles(const PlanarData& map,
                                                     std::span<const int> edges,
                                                     bool horizontal, double at) {
   std::vector<ScanHit> hits;
   std::optional<PlaneSupport> line;
   for (const int e : edges) {
-    const MapEdge& edge = map.edges[e];
+    const PlanarEdge& edge = map.edges[e];
     const auto from = side_of_vertex(map.vertices[edge.ends[0]], horizontal, at);
     const auto to = side_of_vertex(map.vertices[edge.ends[1]], horizontal, at);
     if (!from || !to) return std::nullopt;
@@ -104,7 +104,7 @@ std::optional<std::vector<ScanHit>> hits_by_doubles(const MapData& map,
     if (!line) line = ScanLine{horizontal, Rational(at)}.support();
     if (support.straight) {
       const auto s = substitute<BallNumber>(*line, support);
-      const std::optional<Range> r = range_of_quotient(-s.f[0], s.f[1]);
+      const std::optional<DoubleRange> r = range_of_quotient(-s.f[0], s.f[1]);
       if (!r) return std::nullopt;
       hits.push_back({half_edge(e, *from == Sign::Negative), *r, {}});
       continue;
@@ -115,10 +115,10 @@ std::optional<std::vector<ScanHit>> hits_by_doubles(const MapData& map,
     if (!roots) return std::nullopt;
     if (roots->size() % 2 != (*from != *to)) return std::nullopt;
     bool from_negative = *from == Sign::Negative;
-    for (const Range& root : *roots) {
+    for (const DoubleRange& root : *roots) {
       const BallNumber p = ball(root);
       const auto z = [&](int i) { return s.z[i][0] + p * (s.z[i][1] + p * s.z[i][2]); };
-      const std::optional<Range> r = range_of_quotient(z(1), z(0));
+      const std::optional<DoubleRange> r = range_of_quotient(z(1), z(0));
       if (!r) return std::nullopt;
       hits.push_back({half_edge(e, from_negative), *r, {}});
       from_negative = !from_negative;
@@ -129,14 +129,14 @@ std::optional<std::vector<ScanHit>> hits_by_doubles(const MapData& map,
 
 namespace {
 
-ExactParameter exact_position(const MapData& map, int e, int end) {
+ExactParameter exact_position(const PlanarData& map, int e, int end) {
   ArcParameter at = map.position(e, end);
   return exact(map.geometry->all.supports,
                map.geometry->all.arcs[map.edges[e].arc].support, at);
 }
 
 // Appends the crossings with one edge; false where it touches or ends on the line.
-bool append_exact_hits(const MapData& map, int e, const PlaneSupport& line,
+bool append_exact_hits(const PlanarData& map, int e, const PlaneSupport& line,
                        std::vector<ScanHit>& hits) {
   const PlaneSupport& support = map.support_of_edge(e);
   const Substitution<Ring> s = substitute<Ring>(support, line);
@@ -164,7 +164,7 @@ bool append_exact_hits(const MapData& map, int e, const PlaneSupport& line,
 
 }  // namespace
 
-std::optional<std::vector<ScanHit>> exact_hits(const MapData& map,
+std::optional<std::vector<ScanHit>> exact_hits(const PlanarData& map,
                                                std::span<const int> edges,
                                                const ScanLine& line) {
   const PlaneSupport support = line.support();

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "shadows/planar/map_data.h"
+#include "shadows/planar/planar_data.h"
 
 namespace sightline::internal {
 
@@ -24,7 +24,7 @@ struct ScanHit {
   /// The half-edge of the edge that has its left side before the crossing, in the order
   /// of positions, and so its twin's left side after it.
   int half_edge;
-  Range range;
+  DoubleRange range;
   std::optional<QuadraticRoot> exact;  ///< always there of exact_hits()
 };
 
@@ -32,7 +32,7 @@ struct ScanHit {
 class ScanIndex {
  public:
   /// Keeps a reference.  Of all edges.
-  explicit ScanIndex(const MapData& map);
+  explicit ScanIndex(const PlanarData& map);
 
   /// All edges that a scan line may meet, ascending.
   [[nodiscard]] std::vector<int> edges_at(bool horizontal, double at) const;
@@ -40,12 +40,12 @@ class ScanIndex {
  private:
   struct Rows {
     double from = 0, width = 1;
-    std::vector<Range> ranges;  // of an edge
+    std::vector<DoubleRange> ranges;  // of an edge
     std::vector<std::vector<int>> edges;
 
     [[nodiscard]] int row(double x) const;
   };
-  [[nodiscard]] static Rows rows(std::vector<Range> ranges);
+  [[nodiscard]] static Rows rows(std::vector<DoubleRange> ranges);
 
   Rows by_x_, by_y_;
 };
@@ -53,11 +53,11 @@ class ScanIndex {
 /// All crossings, in no order.  nullopt where doubles cannot tell, among others where
 /// the line passes a vertex.  at: the line's, a double.
 [[nodiscard]] std::optional<std::vector<ScanHit>> hits_by_doubles(
-    const MapData& map, std::span<const int> edges, bool horizontal, double at);
+    const PlanarData& map, std::span<const int> edges, bool horizontal, double at);
 
 /// All crossings, in no order.  nullopt where the line passes a vertex or touches an
 /// edge.
-[[nodiscard]] std::optional<std::vector<ScanHit>> exact_hits(const MapData& map,
+[[nodiscard]] std::optional<std::vector<ScanHit>> exact_hits(const PlanarData& map,
                                                              std::span<const int> edges,
                                                              const ScanLine& line);
 

@@ -265,6 +265,75 @@ TEST(PlanarMapOfConics, CirclesAndTheirCommonChord) {
   EXPECT_EQ(of_ten, 2);
 }
 
+// An ellipse in a circle, F + L^2 25/4 = 0 in F = x^2 + y^2 - 25 = 0, touches it where L
+// = x - y - 2 = 0: at irrational points, roots of a polynomial of degree 4.
+TEST(PlanarMapOfConics, TouchingInIrrationalPoints) {
+  std::vector<PlaneCurve> curves;
+  append_circle(curves, 1, {0, 0}, 5);
+  // The second crossing with the line y = m x through (0, 0); and with x = m y.
+  const Rational a(25, 4);
+  curves.push_back({2,
+                    {25, -25, 0},
+                    {0, 25, -25},
+                    {1 + a, -2 * a, 1 + a},
+                    rational_end(-50),
+                    rational_end(50)});
+  curves.push_back({3,
+                    {0, -25, 25},
+                    {-25, 25, 0},
+                    {1 + a, -2 * a, 1 + a},
+                    rational_end(Rational(-1, 50)),
+                    rational_end(Rational(1, 50))});
+  for (const bool with_chord : {false, true}) {
+    SCOPED_TRACE(with_chord);
+    if (with_chord) curves.push_back(segment(4, -4, -6, 6, 4));
+    const PlanarMap map(curves, square(-8, 8));
+    expect_consistent(map, 256);
+    EXPECT_EQ(counts(map), with_chord ? (Counts{14, 17, 5}) : (Counts{12, 14, 4}));
+    double error = 0;
+    for (int v = 0; v < map.vertex_count(); ++v) {
+      error = std::max(error, map.vertex(v).error);
+    }
+    EXPECT_LE(error, 8 * kVertexError);
+  }
+}
+
+// Is p strictly between the chord y = 0 and the bowl y = a x (1 - x)?
+bool inside_bowl(const PlanePoint& p, const Rational& a) {
+  return p[1] > 0 && p[1] < a * p[0] * (1 - p[0]);
+}
+
+// Faces that are thinner than doubles tell apart, with a segment alone in one of them.
+TEST(PlanarMapOfConics, FacesTooThinForDoubles) {
+  for (const int bits : {30, 60, 90, 300}) {
+    SCOPED_TRACE(bits);
+    const Rational a(1, Integer(1) << bits);
+    const PlanePoint shift{Rational(1, 3), Rational(1, 7)};
+    // y = a x (1 - x), moved by `shift`.
+    const RationalQuadratic x{shift[0], 1, 0}, y{shift[1], a, -a}, w{1, 0, 0};
+    const PlanePoint left = shift, right{shift[0] + 1, shift[1]};
+    const std::vector curves{
+        PlaneCurve{1, x, y, w, rational_end(0), rational_end(1)},
+        plane_segment(2, left, right),
+        plane_segment(3, {shift[0] + Rational(1, 4), shift[1] + a / 16},
+                      {shift[0] + Rational(3, 4), shift[1] + a / 15})};
+    const PlanarMap map(curves, square(0, 2));
+    EXPECT_EQ(counts(map), (Counts{4 + 2 + 2, 4 + 2 + 1, 2}));
+    expect_valid(map);
+    int thin = 0;
+    for (int f = 0; f < 2; ++f) {
+      PlanePoint p = map.interior_point(f);
+      p[0] -= shift[0];
+      p[1] -= shift[1];
+      if (inside_bowl(p, a)) {
+        ++thin;
+        EXPECT_EQ(map.holes(f).size(), 1u);
+      }
+    }
+    EXPECT_EQ(thin, 1);
+  }
+}
+
 TEST(PlanarMapOfConics, PiecesThatCoincideAreOneEdge) {
   CurveGenerator generate(1, 10);
   const auto whole = CurveGenerator::bezier(1, {{{1, 1}, {5, 9}, {9, 2}}}, {2, 1, 3});
@@ -373,7 +442,64 @@ TEST_P(PlanarMapOfRandomCurves, IsConsistentAndCountedRight) {
   }
 }
 
+// ---- edges
+
+double value(const std::array<Rational, 6>& f, const Eigen::Vector2d& p) {
+  std::array<double, 6> c;
+  for (int i = 0; i < 6; ++i) c[i] = nearest_double(f[i]);
+  return c[0] * p.x() * p.x() + c[1] * p.x() * p.y() + c[2] * p.y() * p.y() +
+         c[3] * p.x() + c[4] * p.y() + c[5];
+}
+
+// To first order.
+double distance(const std::array<Rational, 6>& f, const Eigen::Vector2d& p) {
+  constexpr double h = 1e-4;
+  const Eigen::Vector2d gradient(
+      value(f, p + Eigen::Vector2d(h, 0)) - value(f, p - Eigen::Vector2d(h, 0)),
+      value(f, p + Eigen::Vector2d(0, h)) - value(f, p - Eigen::Vector2d(0, h)));
+  return std::abs(value(f, p)) / (gradient.norm() / (2 * h));
+}
+
+TEST(PlanarMapEdges, PointsPartsAndDrawingsLieOnTheirCurves) {
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto curves =
+        random_curves(seed % 2 ? Kind::Mixed : Kind::Overlapping, seed, 14, 30);
+    const PlanarMap map(curves, square(0, 30));
+    for (int e = 0; e < map.edge_count(); ++e) {
+      const std::array<Rational, 6> f = map.implicit_form(e);
+      const PlanePoint p = map.exact_point(e);
+      EXPECT_EQ(f[0] * p[0] * p[0] + f[1] * p[0] * p[1] + f[2] * p[1] * p[1] +
+                    f[3] * p[0] + f[4] * p[1] + f[5],
+                0);
+      EXPECT_LT(distance(f, map.point(e, 0.3)), 1e-10);
+      const auto line = map.polyline(e, 1e-3);
+      EXPECT_EQ(line.front(), map.vertex(map.origin(2 * e)).at);
+      EXPECT_EQ(line.back(), map.vertex(map.target(2 * e)).at);
+      for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        EXPECT_LT(distance(f, line[i]), 1e-10);
+        EXPECT_LT(distance(f, 0.5 * (line[i] + line[i + 1])), 1.1e-3);
+      }
+      for (const int id : map.curves(e)) {
+        const CurvePart part = map.part(e, id);
+        const naive::Curve curve = naive::curve_of(curves[id]);
+        EXPECT_LT((curve.at(part.from) - map.vertex(map.origin(2 * e)).at).norm(), 1e-9);
+        EXPECT_LT((curve.at(part.to) - map.vertex(map.target(2 * e)).at).norm(), 1e-9);
+      }
+    }
+  }
+}
+
 // ---- without
+
+TEST(PlanarMapWithout, KeepsCornersAndEndsOfCurves) {
+  // A corner in the middle of a side; two segments that continue one another.
+  const PlaneOutline outline{{{0, 0}, {2, 0}, {4, 0}, {4, 4}, {0, 4}}};
+  const PlanarMap map(std::vector{segment(1, 1, 1, 2, 1), segment(2, 2, 1, 3, 1)},
+                      outline);
+  EXPECT_EQ(counts(map), (Counts{5 + 3, 5 + 2, 1}));
+  EXPECT_EQ(counts(map.without({}).map), counts(map));
+}
 
 TEST(PlanarMapWithout, JoinsEdgesAndFaces) {
   // Two crossing segments and a third that ends on one of them.

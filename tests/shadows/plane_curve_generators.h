@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "shadows/curves/plane_curve.h"
+#include "shadows/planar/plane_curve.h"
 
 namespace sightline::internal {
 

@@ -1,4 +1,4 @@
-#include "shadows/curves/exact_parameter.h"
+#include "shadows/planar/arcs/exact_parameter.h"
 
 #include <CGAL/Gmpq.h>
 #include <CGAL/Gmpz.h>
@@ -8,7 +8,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "shadows/curves/plane_curve.h"
+#include "shadows/planar/plane_curve.h"
 
 namespace sightline::internal {
 namespace {
@@ -144,7 +144,7 @@ std::vector<PolynomialRoot> roots_between(const Polynomial1& f, const Dyadic& lo
 }
 
 Dyadic between(const ExactParameter& x, const ExactParameter& y) {
-  const Range a = range(x), b = range(y);
+  const DoubleRange a = range(x), b = range(y);
   if (a.hi < b.lo) {
     const double middle = 0.5 * (a.hi + b.lo);
     if (a.hi < middle && middle < b.lo) return dyadic(middle);
@@ -216,7 +216,7 @@ Polynomial1 integer_polynomial(std::span<const Ring> coefficients) {
   return f;
 }
 
-Range range(const BallNumber& x) {
+DoubleRange range(const BallNumber& x) {
   const double spread = std::abs(x.lo) + x.radius;
   if (spread == 0) return {x.hi, x.hi};
   return {std::nextafter(x.hi - spread, -kInfinity),
@@ -224,7 +224,7 @@ Range range(const BallNumber& x) {
 }
 
 // The middle rounds by half a unit in its last place.
-BallNumber ball(const Range& x) {
+BallNumber ball(const DoubleRange& x) {
   if (x.lo == x.hi) return {x.lo, 0, 0};
   const double middle = x.middle();
   const double radius = std::max(middle - x.lo, x.hi - middle);
@@ -232,7 +232,7 @@ BallNumber ball(const Range& x) {
 }
 
 // As nearest_quotient(), with the error told.
-std::optional<Range> range_of_quotient(const BallNumber& x, const BallNumber& y) {
+std::optional<DoubleRange> range_of_quotient(const BallNumber& x, const BallNumber& y) {
   const double least = std::abs(y.hi) * (1 - 4 * kUnit) - y.radius * (1 + 4 * kUnit);
   if (!(least > 0)) return std::nullopt;
   const double q = x.hi / y.hi;
@@ -242,9 +242,9 @@ std::optional<Range> range_of_quotient(const BallNumber& x, const BallNumber& y)
                             std::abs(c) * (8 * kUnit + 2 * y.radius / least));
   const auto [out, rest] = two_sum(q, c);
   const double spread = std::abs(rest) + error;
-  if (spread == 0) return Range{out, out};
-  return Range{std::nextafter(out - spread, -kInfinity),
-               std::nextafter(out + spread, kInfinity)};
+  if (spread == 0) return DoubleRange{out, out};
+  return DoubleRange{std::nextafter(out - spread, -kInfinity),
+                     std::nextafter(out + spread, kInfinity)};
 }
 
 BallNumber ball(const QuadraticRoot& x) {
@@ -256,7 +256,7 @@ BallNumber ball(const QuadraticRoot& x) {
   return {hi, lo, 2 * kQuotientError * std::abs(low) + 0x1p-1000};
 }
 
-Range range(const ExactParameter& x) {
+DoubleRange range(const ExactParameter& x) {
   if (const auto* q = std::get_if<QuadraticRoot>(&x)) return range(ball(*q));
   PolynomialRoot r = std::get<PolynomialRoot>(x);
   for (;;) {

@@ -1,4 +1,4 @@
-#include "shadows/curves/plane_arc.h"
+#include "shadows/planar/arcs/plane_arc.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
@@ -19,7 +19,7 @@ struct Prepared {
   PlaneSupport support;
   QuadraticRoot from, to;
   bool backwards = false;
-  Range from_range, to_range;
+  DoubleRange from_range, to_range;
 };
 
 [[noreturn]] void refuse(const PlaneCurve& curve, const char* why) {
@@ -167,8 +167,8 @@ int lexicographic(std::span<const Integer> a, std::span<const Integer> b) {
   return 0;
 }
 
-Sign compare_ranged(const QuadraticRoot& x, const Range& x_range, const QuadraticRoot& y,
-                    const Range& y_range) {
+Sign compare_ranged(const QuadraticRoot& x, const DoubleRange& x_range,
+                    const QuadraticRoot& y, const DoubleRange& y_range) {
   if (x_range.hi < y_range.lo) return Sign::Negative;
   if (y_range.hi < x_range.lo) return Sign::Positive;
   return compare(x, y);
@@ -194,7 +194,7 @@ bool comes_before(const Prepared& a, const Prepared& b) {
   return order == Sign::Zero ? a.curve < b.curve : order == Sign::Negative;
 }
 
-ArcParameter parameter(const QuadraticRoot& s, const Range& range) {
+ArcParameter parameter(const QuadraticRoot& s, const DoubleRange& range) {
   return {range, -1, std::make_shared<const ExactParameter>(s)};
 }
 

@@ -53,24 +53,24 @@ using ExactParameter = std::variant<QuadraticRoot, PolynomialRoot>;
 // ---- doubles
 
 /// A closed interval.
-struct Range {
+struct DoubleRange {
   double lo = 0, hi = 0;
 
   [[nodiscard]] double middle() const { return 0.5 * (lo + hi); }
   [[nodiscard]] double radius() const { return 0.5 * (hi - lo); }
 };
-[[nodiscard]] inline bool apart(const Range& x, const Range& y) {
+[[nodiscard]] inline bool apart(const DoubleRange& x, const DoubleRange& y) {
   return x.hi < y.lo || y.hi < x.lo;
 }
-[[nodiscard]] Range range(const BallNumber& x);
-[[nodiscard]] BallNumber ball(const Range& x);
+[[nodiscard]] DoubleRange range(const BallNumber& x);
+[[nodiscard]] BallNumber ball(const DoubleRange& x);
 /// nullopt where the divisor may be 0.
-[[nodiscard]] std::optional<Range> range_of_quotient(const BallNumber& x,
-                                                     const BallNumber& y);
+[[nodiscard]] std::optional<DoubleRange> range_of_quotient(const BallNumber& x,
+                                                           const BallNumber& y);
 /// Off by some 2^-96 of itself.
 [[nodiscard]] BallNumber ball(const QuadraticRoot& x);
 /// At most some units in the last place wide.
-[[nodiscard]] Range range(const ExactParameter& x);
+[[nodiscard]] DoubleRange range(const ExactParameter& x);
 /// Off by some 2^-90 of itself, or 2^-40 of the width of its interval.
 [[nodiscard]] BallNumber precise_ball(const ExactParameter& x);
 /// Integers times a common power of two, the largest below 1.

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "shadows/curves/plane_arc.h"
+#include "shadows/planar/arcs/plane_arc.h"
 
 namespace sightline::internal {
 

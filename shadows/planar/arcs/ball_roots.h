@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "shadows/curves/exact_parameter.h"
+#include "shadows/planar/arcs/exact_parameter.h"
 
 namespace sightline::internal {
 
@@ -27,11 +27,11 @@ struct BallPolynomial {
 /// to hold one root, a simple one.  nullopt where that cannot be proved, as for double
 /// roots and for roots next to lo or hi.
 /// By Bernstein's coefficients and bisection (Lane and Riesenfeld 1981).
-[[nodiscard]] std::optional<std::vector<Range>> simple_roots(const BallPolynomial& f,
-                                                             double lo, double hi);
+[[nodiscard]] std::optional<std::vector<DoubleRange>> simple_roots(
+    const BallPolynomial& f, double lo, double hi);
 
 /// It has no stationary point in the range, for certain.
-[[nodiscard]] bool monotone(const BallPolynomial& f, const Range& s);
+[[nodiscard]] bool monotone(const BallPolynomial& f, const DoubleRange& s);
 
 [[nodiscard]] BallNumber value_at(const BallPolynomial& f, const BallNumber& s);
 

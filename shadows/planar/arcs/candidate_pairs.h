@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "shadows/curves/plane_arc.h"
+#include "shadows/planar/arcs/plane_arc.h"
 
 namespace sightline::internal {
 

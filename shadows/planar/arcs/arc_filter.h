@@ -7,7 +7,7 @@
 
 #pragma once
 
-#include "shadows/curves/plane_support.h"
+#include "shadows/planar/arcs/plane_support.h"
 
 namespace sightline::internal {
 

@@ -1,4 +1,4 @@
-#include "shadows/curves/arc_box.h"
+#include "shadows/planar/arcs/arc_box.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,8 +35,8 @@ BallNumber value_at(const std::array<BallNumber, 3>& c, const BallNumber& s, int
 
 // How far u / w is at most from its value in the middle of s: by the mean value theorem.
 double deviation(const std::array<BallNumber, 3>& u, const std::array<BallNumber, 3>& w,
-                 const BallNumber& s, const Range& w_range, int degree) {
-  const Range slope_range = range(value_at(slope(u, w), s, degree));
+                 const BallNumber& s, const DoubleRange& w_range, int degree) {
+  const DoubleRange slope_range = range(value_at(slope(u, w), s, degree));
   const double steepest = std::max(std::abs(slope_range.lo), std::abs(slope_range.hi));
   const double least = std::min(std::abs(w_range.lo), std::abs(w_range.hi));
   return steepest / (least * least) * s.radius * (1 + 8 * kUnit);
@@ -53,9 +53,10 @@ std::optional<PointRange> point_range(const PlaneSupport& support, const BallNum
   if (!sign_of(all_w)) return std::nullopt;
   PointRange out;
   for (const int i : {0, 1}) {
-    const std::optional<Range> r = range_of_quotient(value_at(c[i], middle, degree), w);
+    const std::optional<DoubleRange> r =
+        range_of_quotient(value_at(c[i], middle, degree), w);
     if (!r) return std::nullopt;
-    Range& wider = i == 0 ? out.x : out.y;
+    DoubleRange& wider = i == 0 ? out.x : out.y;
     wider = *r;
     if (s.radius == 0) continue;
     const double d = deviation(c[i], c[2], s, range(all_w), degree);
@@ -66,13 +67,13 @@ std::optional<PointRange> point_range(const PlaneSupport& support, const BallNum
 }
 
 // With positive weights a curve lies in the convex hull of its control points.
-std::optional<PointRange> box_of(const PlaneSupport& support, const Range& s) {
+std::optional<PointRange> box_of(const PlaneSupport& support, const DoubleRange& s) {
   const auto points = control_points(support, {s.lo, 0, 0}, {s.hi, 0, 0});
   std::optional<PointRange> box;
   for (int i = 0; i < (support.straight ? 2 : 3); ++i) {
     if (sign_of(points[i][2]) != Sign::Positive) return std::nullopt;
-    const std::optional<Range> x = range_of_quotient(points[i][0], points[i][2]);
-    const std::optional<Range> y = range_of_quotient(points[i][1], points[i][2]);
+    const std::optional<DoubleRange> x = range_of_quotient(points[i][0], points[i][2]);
+    const std::optional<DoubleRange> y = range_of_quotient(points[i][1], points[i][2]);
     if (!x || !y) return std::nullopt;
     if (!box) box = PointRange{*x, *y};
     box->x = {std::min(box->x.lo, x->lo), std::max(box->x.hi, x->hi)};

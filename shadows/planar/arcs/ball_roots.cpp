@@ -1,4 +1,4 @@
-#include "shadows/curves/ball_roots.h"
+#include "shadows/planar/arcs/ball_roots.h"
 
 #include <cmath>
 
@@ -75,7 +75,7 @@ class Isolation {
   Isolation(const BallPolynomial& f, double lo, double hi)
       : f_(rescaled(f, lo, hi)), lo_(lo), width_(exact_difference(hi, lo)) {}
 
-  std::optional<std::vector<Range>> run() {
+  std::optional<std::vector<DoubleRange>> run() {
     if (!divide(bernstein(f_), 0, 1, 0)) return std::nullopt;
     for (std::size_t i = 1; i < found_.size(); ++i) {
       if (!(found_[i - 1].hi < found_[i].lo)) return std::nullopt;
@@ -137,7 +137,7 @@ class Isolation {
   BallPolynomial f_;
   double lo_;
   BallNumber width_;
-  std::vector<Range> found_;
+  std::vector<DoubleRange> found_;
 };
 
 }  // namespace
@@ -150,12 +150,12 @@ BallPolynomial without_root(const BallPolynomial& f, const BallNumber& root) {
   return g;
 }
 
-std::optional<std::vector<Range>> simple_roots(const BallPolynomial& f, double lo,
-                                               double hi) {
+std::optional<std::vector<DoubleRange>> simple_roots(const BallPolynomial& f, double lo,
+                                                     double hi) {
   return Isolation(f, lo, hi).run();
 }
 
-bool monotone(const BallPolynomial& f, const Range& s) {
+bool monotone(const BallPolynomial& f, const DoubleRange& s) {
   BallPolynomial slope;
   slope.degree = f.degree - 1;
   for (int k = 1; k <= f.degree; ++k) slope.c[k - 1] = exactly(k) * f.c[k];

@@ -1,8 +1,9 @@
-#include "shadows/planar/crossings.h"
+#include "shadows/planar/arcs/crossings.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "shadows/curves/ball_roots.h"
+#include "shadows/planar/arcs/ball_roots.h"
 
 namespace sightline::internal {
 namespace {
@@ -34,7 +35,7 @@ ArcParameter known(const ExactParameter& s) {
 // A point of the curve of `arc` on the arc: at one of its ends, inside (a new parameter),
 // or not at all.
 std::optional<ArcParameter> on_arc(const PlaneArc& arc, const QuadraticRoot& s) {
-  const Range r = range(ball(s));
+  const DoubleRange r = range(ball(s));
   for (const int end : {0, 1}) {
     const ArcEnd& e = arc.ends[end];
     if (apart(r, e.at.range)) {
@@ -64,7 +65,7 @@ void append_crossing_of_lines(const PlaneArcs& all, const PlaneArc& a, const Pla
     if (s1 == Sign::Zero) return own.ends[1].at;
     const Substitution<BallNumber> s =
         substitute<BallNumber>(all.supports[own.support], all.supports[other.support]);
-    if (const std::optional<Range> r = range_of_quotient(-s.f[0], s.f[1])) {
+    if (const std::optional<DoubleRange> r = range_of_quotient(-s.f[0], s.f[1])) {
       return {*r, other.support, nullptr};
     }
     ArcParameter p{{}, other.support, nullptr};
@@ -132,15 +133,15 @@ bool append_by_doubles(const ArcPair& pair,
   if (roots->empty()) return true;
   std::vector<ArcCrossing> found;
   const BallPolynomial g = polynomial(substitute<BallNumber>(pair.on_b(), pair.on_a()));
-  for (const Range& root : *roots) {
+  for (const DoubleRange& root : *roots) {
     if (!(pair.a.ends[0].at.range.hi < root.lo && root.hi < pair.a.ends[1].at.range.lo)) {
       return false;
     }
     const BallNumber at = ball(root);
     const auto z = [&](int i) { return s.z[i][0] + at * (s.z[i][1] + at * s.z[i][2]); };
-    const std::optional<Range> t = range_of_quotient(z(1), z(0));
+    const std::optional<DoubleRange> t = range_of_quotient(z(1), z(0));
     if (!t) return false;
-    const Range from = pair.b.ends[0].at.range, to = pair.b.ends[1].at.range;
+    const DoubleRange from = pair.b.ends[0].at.range, to = pair.b.ends[1].at.range;
     if (t->hi < from.lo || to.hi < t->lo) continue;
     if (!(from.hi < t->lo && t->hi < to.lo)) return false;
     if (!monotone(f, root) || !monotone(g, *t)) return false;
@@ -211,7 +212,9 @@ void append_exactly(const ArcPair& pair, const std::vector<QuadraticRoot>& known
   const Substitution<Ring> back = substitute<Ring>(pair.on_b(), pair.on_a());
   const auto window = [](const PlaneArc& arc) {
     const double from = arc.ends[0].at.range.lo, to = arc.ends[1].at.range.hi;
-    const double margin = 0x1p-10 * (to - from);
+    // Wider than the enclosures of the ends.
+    const double margin = 0x1p-10 * (to - from) +
+                          0x1p-40 * std::max({std::abs(from), std::abs(to), 0x1p-20});
     return std::array{outwards(from, -margin), outwards(to, margin)};
   };
   const auto [a_lo, a_hi] = window(pair.a);

@@ -1,4 +1,4 @@
-#include "shadows/curves/plane_curve.h"
+#include "shadows/planar/plane_curve.h"
 
 #include <CGAL/Gmpq.h>
 #include <gmp.h>

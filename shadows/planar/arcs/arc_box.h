@@ -5,8 +5,7 @@
 #include <array>
 #include <optional>
 
-#include "shadows/curves/plane_arc.h"
-#include "shadows/curves/plane_support.h"
+#include "shadows/planar/arcs/plane_support.h"
 
 namespace sightline::internal {
 
@@ -17,7 +16,7 @@ namespace sightline::internal {
 
 /// A point, enclosed.
 struct PointRange {
-  Range x, y;
+  DoubleRange x, y;
 };
 /// nullopt where the enclosure of w contains 0.
 [[nodiscard]] std::optional<PointRange> point_range(const PlaneSupport& support,
@@ -26,6 +25,6 @@ struct PointRange {
 /// Contains the stretch.  nullopt where a control point may have no positive weight: of
 /// a short enough stretch all have.
 [[nodiscard]] std::optional<PointRange> box_of(const PlaneSupport& support,
-                                               const Range& s);
+                                               const DoubleRange& s);
 
 }  // namespace sightline::internal

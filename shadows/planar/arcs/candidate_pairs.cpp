@@ -1,11 +1,11 @@
-#include "shadows/planar/candidate_pairs.h"
+#include "shadows/planar/arcs/candidate_pairs.h"
 
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "shadows/curves/arc_box.h"
+#include "shadows/planar/arcs/arc_box.h"
 
 namespace sightline::internal {
 namespace {
@@ -15,7 +15,7 @@ struct Frame {
   PointRange box;
   int size = 1;
 
-  [[nodiscard]] static int index(double x, const Range& r, int size) {
+  [[nodiscard]] static int index(double x, const DoubleRange& r, int size) {
     const double share = (x - r.lo) / (r.hi - r.lo) * size;
     return std::clamp(static_cast<int>(share), 0, size - 1);
   }
@@ -27,7 +27,7 @@ struct Frame {
 };
 
 // Appends the cells of a stretch of an arc.
-void append_cells(const PlaneSupport& support, const Range& s, const Frame& frame,
+void append_cells(const PlaneSupport& support, const DoubleRange& s, const Frame& frame,
                   int depth, std::vector<int>& out) {
   constexpr int kMostDepth = 12;
   const std::optional<PointRange> box = box_of(support, s);

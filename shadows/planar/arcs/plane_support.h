@@ -10,8 +10,8 @@
 
 #include <array>
 
-#include "shadows/curves/exact_parameter.h"
-#include "shadows/curves/plane_curve.h"
+#include "shadows/planar/arcs/exact_parameter.h"
+#include "shadows/planar/plane_curve.h"
 
 namespace sightline::internal {
 

@@ -7,17 +7,17 @@
 #include <span>
 #include <vector>
 
-#include "shadows/curves/arc_box.h"
-#include "shadows/curves/arc_filter.h"
-#include "shadows/curves/exact_parameter.h"
-#include "shadows/curves/plane_curve.h"
-#include "shadows/curves/plane_support.h"
+#include "shadows/planar/arcs/arc_box.h"
+#include "shadows/planar/arcs/arc_filter.h"
+#include "shadows/planar/arcs/exact_parameter.h"
+#include "shadows/planar/arcs/plane_support.h"
+#include "shadows/planar/plane_curve.h"
 
 namespace sightline::internal {
 
 /// A position on an arc: enclosed, and exactly once somebody asks.
 struct ArcParameter {
-  Range range;
+  DoubleRange range;
   /// The support that crosses there.  -1: `exact` is known.
   int crossing = -1;
   std::shared_ptr<const ExactParameter> exact;
@@ -36,7 +36,7 @@ struct ArcEnd {
   SurdPoint point;
   BallNumber parameter;
   BallNumber x, y, w;  ///< homogeneous
-  Range box_x, box_y;
+  DoubleRange box_x, box_y;
 };
 
 struct PlaneArc {

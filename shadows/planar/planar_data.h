@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "shadows/curves/plane_arc.h"
+#include "shadows/planar/arcs/plane_arc.h"
 
 namespace sightline::internal {
 
@@ -30,7 +30,7 @@ struct PlanarGeometry {
 };
 
 /// From its first vertex to its second the parameter of its arc grows.
-struct MapEdge {
+struct PlanarEdge {
   std::array<int, 2> ends;
   int arc;
   std::array<int, 2> position;  ///< in the positions of the arc
@@ -39,13 +39,13 @@ struct MapEdge {
   bool inside_of_first = false;
 };
 
-struct MapFace {
+struct PlanarFace {
   int outer;
   std::vector<int> holes;
 };
 
-/// Lists of numbers, one after the other.
-struct Lists {
+/// IndexLists of numbers, one after the other.
+struct IndexLists {
   std::vector<int> first{0};  ///< of list i in `items`; and one more
   std::vector<int> items;
 
@@ -58,14 +58,14 @@ struct Lists {
   }
 };
 
-struct MapData {
+struct PlanarData {
   std::shared_ptr<const PlanarGeometry> geometry;
   std::vector<PlanarVertex> vertices;
-  std::vector<MapEdge> edges;
-  Lists curves;  ///< ids of each edge
-  Lists stars;   ///< half-edges of each vertex
+  std::vector<PlanarEdge> edges;
+  IndexLists curves;  ///< ids of each edge
+  IndexLists stars;   ///< half-edges of each vertex
   std::vector<int> next, face;
-  std::vector<MapFace> faces;
+  std::vector<PlanarFace> faces;
 
   [[nodiscard]] const PlaneSupport& support_of_edge(int e) const {
     return geometry->all.supports[geometry->all.arcs[edges[e].arc].support];

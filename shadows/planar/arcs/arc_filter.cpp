@@ -1,9 +1,9 @@
-#include "shadows/curves/arc_filter.h"
+#include "shadows/planar/arcs/arc_filter.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "shadows/curves/arc_box.h"
+#include "shadows/planar/arcs/arc_box.h"
 
 namespace sightline::internal {
 namespace {

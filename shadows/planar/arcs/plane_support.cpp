@@ -1,4 +1,4 @@
-#include "shadows/curves/plane_support.h"
+#include "shadows/planar/arcs/plane_support.h"
 
 #include "linespace/scene.h"
 
