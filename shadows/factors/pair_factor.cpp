@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "linespace/polygon_visibility.h"
 
@@ -64,9 +65,14 @@ void PairFactor::decide(const PreparedSide& a, const PreparedSide& b, ExchangeAr
   ++counts_.decided;
   VisibilityQuestion question{before(b.plane, a.polygon), before(a.plane, b.polygon), {}};
   for (const int i : between_) question.occluders.push_back(blockers_.polygon(i));
-  const VisibilityAnswer answer = polygon_visibility(question);
-  if (answer.verdict == Verdict::Hidden) sum = {};
-  if (answer.verdict == Verdict::Visible && sum.value <= 0) {
+  std::optional<VisibilityAnswer> answer;
+  try {
+    answer = polygon_visibility(question);
+  } catch (const InvalidInput&) {
+    return;  // rounding has left a part before the other's plane without area
+  }
+  if (answer->verdict == Verdict::Hidden) sum = {};
+  if (answer->verdict == Verdict::Visible && sum.value <= 0) {
     // An opening less than what can be told.
     sum.value = std::numeric_limits<double>::min();
   }
