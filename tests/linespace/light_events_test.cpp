@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "linespace/mesh_io.h"
 #include "tests/support/add_box.h"
 #include "tests/support/generators.h"
 #include "tests/support/light_crossings.h"
@@ -447,6 +448,17 @@ TEST(LightEvents, PowersOfTwoAndAxes) {
       EXPECT_EQ(again.events.traces[i].generators, lit.events.traces[i].generators);
     }
   }
+}
+
+TEST(LightEvents, CornellBox) {
+  const Lit lit(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/cornell.obj"));
+  int changes = 0;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(1, 54);
+  for (int i = 0; i < 12; ++i) {
+    expect_complete(lit, {u(random), 0, u(random)}, {u(random), 0, u(random)}, changes);
+  }
+  EXPECT_GT(changes, 20);
 }
 
 TEST(LightEvents, ScatteredTriangles) {
