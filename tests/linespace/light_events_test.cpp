@@ -461,6 +461,27 @@ TEST(LightEvents, CornellBox) {
   EXPECT_GT(changes, 20);
 }
 
+// Sheets through each other: edges that pass through faces end what is seen of them.
+TEST(LightEvents, CrossingTriangles) {
+  int changes = 0;
+  for (int scene = 0; scene < 8; ++scene) {
+    std::mt19937 random(300 + scene);
+    std::uniform_real_distribution<double> u(-1.25, 1.25);
+    PolygonSoup soup;
+    add_rectangle(soup, "light", -1, -1, 1, 1, 4, false);
+    for (int i = 0; i < 4; ++i) {
+      std::vector<Point> c;
+      for (int k = 0; k < 3; ++k)
+        c.emplace_back(u(random), u(random), 2 + 0.6 * u(random));
+      add_polygon(soup, "t" + std::to_string(i), c);
+    }
+    add_rectangle(soup, "floor", -12, -12, 12, 12, 0, true);
+    const Lit lit(soup);
+    changes += expect_complete_along(lit, 6, 350 + scene, -4, -4, 4, 4);
+  }
+  EXPECT_GT(changes, 200);
+}
+
 TEST(LightEvents, ScatteredTriangles) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> near(-0.75, 0.75);
