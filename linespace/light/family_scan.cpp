@@ -10,8 +10,6 @@ Four<T> contact_point(const Four<T>& g0, const Four<T>& g1, const T& at0, const 
   return combination(at1, g0, at0, g1);
 }
 
-bool is_exactly(Sign a, Sign b) { return a == b; }
-
 }  // namespace
 
 const std::vector<ScannedPiece>& FamilyScan::scan(const LineFamily& family,
@@ -25,9 +23,8 @@ const std::vector<ScannedPiece>& FamilyScan::scan(const LineFamily& family,
   if (lit_.empty()) return pieces_;
   // 2. What they may meet on the way, and where that changes.
   find_candidates(family, plane);
-  const bool any_wanted = std::ranges::any_of(candidates_, [&](int f) {
-    return front_wanted_[f] != 0 || back_wanted_[f] != 0;
-  });
+  const bool any_wanted = std::ranges::any_of(
+      candidates_, [&](int f) { return front_wanted_[f] != 0 || back_wanted_[f] != 0; });
   if (!any_wanted) return pieces_;
   cuts_.clear();
   add_face_cuts(family, contacts);
@@ -336,7 +333,7 @@ std::optional<std::vector<FamilyScan::Met>> FamilyScan::first_met(
     const Sign at_contact = decide(value(plane.near, *near),
                                    [&] { return value(plane.exact, exact_point()); });
     const Sign weight = decide((*near)[3], [&] { return exact_point()[3]; });
-    met.push_back({h.face, is_exactly(at_contact, weight)});
+    met.push_back({h.face, at_contact == weight});
   }
   return met;
 }

@@ -214,10 +214,13 @@ int wrong_pieces(const internal::LightSpace& space, const internal::LightEvents&
       });
       // Both points that make the line lie on the way.
       const auto on_way = [&](const Eigen::Vector4d& x) {
-        const double u = (x.head<3>() / x[3] - p).dot(way) / way.squaredNorm();
-        return u > -1e-9 && u < 1 + 1e-9;
+        return (x.head<3>() / x[3] - p).dot(way) / way.squaredNorm();
       };
-      const bool between = on_way(on_source.first(s)) && on_way(on_source.last(s));
+      const double first = on_way(on_source.first(s));
+      const double last = on_way(on_source.last(s));
+      const bool between = std::min(first, last) > -1e-9 &&
+                           std::max(first, last) < 1 + 1e-9 &&
+                           (trace.straight || first < last);
       bool right =
           lit && between && passes(scene, piece.face, p - 0.01 * way, q, -1e-10 * size);
       for (std::size_t f = 0; f < scene.faces().size() && right; ++f) {
