@@ -65,7 +65,7 @@ struct Lit {
         << scene.faces().size() << " faces";
   }
   [[nodiscard]] std::string structure(const Point& p) const {
-    return testing::seen_structure(index, scene, source, source_facets, p);
+    return testing::seen_structure(index, scene, source, source_facets, floor_facet, p);
   }
   [[nodiscard]] std::map<LightEventKind, int> pieces_on_floor() const {
     std::map<LightEventKind, int> out;
@@ -480,6 +480,43 @@ TEST(LightEvents, CrossingTriangles) {
     changes += expect_complete_along(lit, 6, 350 + scene, -4, -4, 4, 4);
   }
   EXPECT_GT(changes, 200);
+}
+
+// All in line, boxes that touch too, a light in whose planes walls lie: on walls, roofs
+// and the ground alike.
+TEST(LightEvents, EveryFacetOfAlignedCities) {
+  int changes = 0;
+  for (int seed = 1; seed <= 4; ++seed) {
+    PolygonSoup soup = testing::grid_city(seed, 42, {.may_touch = seed % 2 == 0});
+    Point low = soup.vertices[0];
+    Point high = low;
+    for (const Point& p : soup.vertices) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    const Point middle = 0.5 * (low + high);
+    const double x = std::floor(middle.x());
+    const double y = std::floor(middle.y());
+    add_rectangle(soup, "light", x - 3, y - 2, x + 3, y + 3, high.z() + 1, false);
+    Lit lit(soup, "light", "ground");
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(0.03, 0.97);
+    for (std::size_t f = 0; f < lit.scene.faces().size(); f += 2) {
+      const auto ids = lit.scene.face_points(static_cast<int>(f));
+      const Point a = lit.scene.point(ids[0]);
+      const Point b = lit.scene.point(ids[1]) - a;
+      const Point c = lit.scene.point(ids[3]) - a;
+      lit.floor_facet = lit.scene.faces()[f].facet;
+      if (lit.floor_facet == lit.source_facets[0]) continue;
+      // Small integers and axes: the points stay in the plane.
+      for (int i = 0; i < 3; ++i) {
+        const Point p = a + u(random) * b + u(random) * c;
+        const Point q = a + u(random) * b + u(random) * c;
+        expect_complete(lit, p, q, changes);
+      }
+    }
+  }
+  EXPECT_GT(changes, 20);
 }
 
 TEST(LightEvents, ScatteredTriangles) {

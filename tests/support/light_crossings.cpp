@@ -235,10 +235,18 @@ int wrong_pieces(const internal::LightSpace& space, const internal::LightEvents&
 
 std::string seen_structure(const PointViewIndex& index, const Scene& scene,
                            const std::vector<Point>& source,
-                           const std::vector<int>& facets, const Point& eye) {
+                           const std::vector<int>& facets, int receiver,
+                           const Point& eye) {
+  const Eigen::Vector4d plane = plane_of_face(scene, scene.facets()[receiver].faces[0]);
+  const auto on_horizon = [&](int edge) {
+    const auto& ends = scene.edges()[edge].points;
+    return std::ranges::all_of(
+        ends, [&](int p) { return plane.head<3>().dot(scene.point(p)) + plane[3] == 0; });
+  };
   const PointView view = index.view_through(eye_at(eye), source);
   const auto name = [&](int half_edge) -> std::string {
     const MapEdge& e = view.edges[half_edge / 2];
+    if (e.line.edge >= 0 && on_horizon(e.line.edge)) return "h";
     if (e.line.edge >= 0) return "e" + std::to_string(first_in_line(scene, e.line.edge));
     if (e.line.facets[0] >= 0) {
       return "x" + std::to_string(e.line.facets[0]) + "," +
