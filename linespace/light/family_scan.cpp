@@ -10,8 +10,6 @@ Four<T> contact_point(const Four<T>& g0, const Four<T>& g1, const T& at0, const 
   return combination(at1, g0, at0, g1);
 }
 
-bool is_exactly(Sign a, Sign b) { return a == b; }
-
 }  // namespace
 
 const std::vector<ScannedPiece>& FamilyScan::scan(const LineFamily& family,
@@ -25,7 +23,9 @@ const std::vector<ScannedPiece>& FamilyScan::scan(const LineFamily& family,
   if (lit_.empty()) return pieces_;
   // 2. What they may meet on the way, and where that changes.
   find_candidates(family, plane);
-  if (candidates_.empty()) return pieces_;
+  const bool any_wanted = std::ranges::any_of(
+      candidates_, [&](int f) { return front_wanted_[f] != 0 || back_wanted_[f] != 0; });
+  if (!any_wanted) return pieces_;
   cuts_.clear();
   add_face_cuts(family, contacts);
   const std::vector<FamilyCut> all = cuts_;
@@ -43,7 +43,7 @@ const std::vector<ScannedPiece>& FamilyScan::scan(const LineFamily& family,
     open_.clear();
     for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
       std::vector<Met> met;
-      if (const auto s = between(cuts_[i], cuts_[i + 1])) {
+      if (const auto s = between(family, cuts_[i], cuts_[i + 1])) {
         const FamilyLine line(family, *s);
         if (auto found = first_met(line, contacts)) met = std::move(*found);
       } else {
@@ -116,8 +116,12 @@ void FamilyScan::sort_cuts(const LineFamily& family) {
   cuts_.erase(last, cuts_.end());
 }
 
-std::optional<double> FamilyScan::between(const FamilyCut& a, const FamilyCut& b) const {
-  if (!(a.hi < b.lo)) return std::nullopt;
+std::optional<double> FamilyScan::between(const LineFamily& family, FamilyCut& a,
+                                          FamilyCut& b) {
+  if (!(a.hi < b.lo)) {
+    family.refine(a);
+    family.refine(b);
+  }
   const double s = a.hi + 0.5 * (b.lo - a.hi);
   if (!(a.hi < s && s < b.lo)) return std::nullopt;
   return s;
@@ -153,7 +157,7 @@ void FamilyScan::find_lit(const LineFamily& family,
   sort_cuts(family);
   bool goes_on = false;
   for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
-    const auto s = between(cuts_[i], cuts_[i + 1]);
+    const auto s = between(family, cuts_[i], cuts_[i + 1]);
     const bool lit =
         s ? reaches_source(FamilyLine(family, *s), contacts, farthest) : goes_on;
     if (!lit) {
@@ -329,7 +333,7 @@ std::optional<std::vector<FamilyScan::Met>> FamilyScan::first_met(
     const Sign at_contact = decide(value(plane.near, *near),
                                    [&] { return value(plane.exact, exact_point()); });
     const Sign weight = decide((*near)[3], [&] { return exact_point()[3]; });
-    met.push_back({h.face, is_exactly(at_contact, weight)});
+    met.push_back({h.face, at_contact == weight});
   }
   return met;
 }

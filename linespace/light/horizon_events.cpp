@@ -18,10 +18,10 @@ struct PlanePoint {
 
 class HorizonFinder {
  public:
-  HorizonFinder(const PatchSpace& at, int facet)
+  HorizonFinder(const PatchSpace& at, const HorizonPlane& horizon)
       : at_(at),
-        facet_(facet),
-        plane_(at.space.faces()[at.space.scene().facets()[facet].faces[0]].plane),
+        horizon_(horizon),
+        plane_(at.space.faces()[horizon.faces[0]].plane),
         scan_(at.space, at.patch, at.sides, at.faces_in_front, {}, {}) {}
 
   std::vector<LightTrace> find(std::span<const std::uint8_t> front,
@@ -108,11 +108,12 @@ class HorizonFinder {
     trace.kind =
         is_point(a.name) || is_point(b.name) ? LightEventKind::EV : LightEventKind::EEE;
     trace.patch = at_.number;
-    trace.generators = {high.name, low.name, {LightFeature::Kind::Horizon, facet_}};
-    trace.facet = facet_;
+    trace.generators = {
+        high.name, low.name, {LightFeature::Kind::Horizon, horizon_.facet}};
+    trace.facet = horizon_.facet;
     trace.first = {high.point.exact, high.point.exact};
     trace.last = {low.point.exact, low.point.exact};
-    for (const int face : at_.space.scene().facets()[facet_].faces) {
+    for (const int face : horizon_.faces) {
       const auto ends = on_face(low.point.exact, high.point.exact, face);
       if (!ends) continue;
       for (const bool side : {true, false}) {
@@ -181,7 +182,7 @@ class HorizonFinder {
   }
 
   const PatchSpace& at_;
-  int facet_;
+  const HorizonPlane& horizon_;
   const LightPlane& plane_;
   FamilyScan scan_;
   std::vector<PlanePoint> above_, on_source_;
@@ -190,16 +191,15 @@ class HorizonFinder {
 
 }  // namespace
 
-std::vector<int> horizon_facets(const PatchSpace& at, std::span<const std::uint8_t> front,
-                                std::span<const std::uint8_t> back) {
+std::vector<HorizonPlane> horizon_planes(const PatchSpace& at,
+                                         std::span<const std::uint8_t> front,
+                                         std::span<const std::uint8_t> back) {
   const Scene& scene = at.space.scene();
-  std::vector<int> out;
-  for (std::size_t i = 0; i < scene.facets().size(); ++i) {
-    const Facet& facet = scene.facets()[i];
-    const bool wanted = std::ranges::any_of(
-        facet.faces, [&](int f) { return front[f] != 0 || back[f] != 0; });
-    if (!wanted || !facet.planar) continue;
-    const LightPlane& plane = at.space.faces()[facet.faces[0]].plane;
+  std::vector<HorizonPlane> out;
+  const auto add = [&](int facet, std::vector<int> faces) {
+    std::erase_if(faces, [&](int f) { return front[f] == 0 && back[f] == 0; });
+    if (faces.empty()) return;
+    const LightPlane& plane = at.space.faces()[faces[0]].plane;
     bool before = false;
     bool behind = false;
     for (const Point& p : at.patch.hull) {
@@ -207,15 +207,23 @@ std::vector<int> horizon_facets(const PatchSpace& at, std::span<const std::uint8
       before = before || s == Sign::Positive;
       behind = behind || s == Sign::Negative;
     }
-    if (before && behind) out.push_back(static_cast<int>(i));
+    if (before && behind) out.push_back({facet, std::move(faces)});
+  };
+  for (std::size_t i = 0; i < scene.facets().size(); ++i) {
+    const Facet& facet = scene.facets()[i];
+    if (facet.planar) {
+      add(static_cast<int>(i), facet.faces);
+      continue;
+    }
+    for (const int f : facet.faces) add(static_cast<int>(i), {f});
   }
   return out;
 }
 
-std::vector<LightTrace> horizon_events(const PatchSpace& at, int facet,
+std::vector<LightTrace> horizon_events(const PatchSpace& at, const HorizonPlane& horizon,
                                        std::span<const std::uint8_t> front,
                                        std::span<const std::uint8_t> back) {
-  return HorizonFinder(at, facet).find(front, back);
+  return HorizonFinder(at, horizon).find(front, back);
 }
 
 }  // namespace sightline::internal

@@ -11,15 +11,20 @@
 
 namespace sightline::internal {
 
-/// Facets with a wanted face whose planes cut the patch, so that it has points strictly
-/// on both sides; ascending.
-[[nodiscard]] std::vector<int> horizon_facets(const PatchSpace& at,
-                                              std::span<const std::uint8_t> front,
-                                              std::span<const std::uint8_t> back);
+/// Wanted faces of one facet in one plane: all, or of a facet that is bent one.
+struct HorizonPlane {
+  int facet;
+  std::vector<int> faces;
+};
+/// Those whose planes cut the patch, so that it has points strictly on both sides.
+[[nodiscard]] std::vector<HorizonPlane> horizon_planes(
+    const PatchSpace& at, std::span<const std::uint8_t> front,
+    std::span<const std::uint8_t> back);
 
-/// The traces of such a facet: lines in its plane through two points there, as far as
-/// they lie on its wanted faces beyond both.  What lies in the way beyond is not asked.
-[[nodiscard]] std::vector<LightTrace> horizon_events(const PatchSpace& at, int facet,
+/// The traces in such a plane: lines in it through two points there, as far as they lie
+/// on the wanted faces beyond both.  What lies in the way beyond is not asked.
+[[nodiscard]] std::vector<LightTrace> horizon_events(const PatchSpace& at,
+                                                     const HorizonPlane& horizon,
                                                      std::span<const std::uint8_t> front,
                                                      std::span<const std::uint8_t> back);
 

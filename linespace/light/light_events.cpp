@@ -29,7 +29,8 @@ struct Wanted {
 StoppedBy add_events(const PatchSpace& at, const SourceSight& sight, const Wanted& wanted,
                      const LightEventsRequest& request, const Deadline& deadline,
                      LightEvents& out) {
-  const std::vector<int> horizons = horizon_facets(at, wanted.front, wanted.back);
+  const std::vector<HorizonPlane> horizons =
+      horizon_planes(at, wanted.front, wanted.back);
   const std::size_t points = at.points.size();
   const std::size_t edges_end = points + at.front_edges.size();
   struct Found {

@@ -48,6 +48,7 @@ std::optional<LightPoint> crossing(const LightLine& l, const LightLine& m) {
 }  // namespace
 
 LightSpace::LightSpace(const Scene& scene, const Request& request) : scene_(scene) {
+  const PrecisionScope exact(Precision::Exact);
   points_.reserve(scene.points().size());
   for (const Point& p : scene.points()) points_.push_back(light_point(p));
   size_ = (scene.bounds()[1] - scene.bounds()[0]).norm();

@@ -270,6 +270,10 @@ QuadraticRoot LineFamily::exact(const FamilyCut& cut) const {
   }
 }
 
+void LineFamily::refine(FamilyCut& cut) const {
+  if (cut.lo < cut.hi) enclose(exact(cut), cut);
+}
+
 Sign LineFamily::compare(const FamilyCut& a, const FamilyCut& b) const {
   if (a.hi < b.lo) return Sign::Negative;
   if (b.hi < a.lo) return Sign::Positive;

@@ -103,6 +103,8 @@ class LineFamily {
   [[nodiscard]] static FamilyCut start();
   [[nodiscard]] static FamilyCut end();
   [[nodiscard]] QuadraticRoot exact(const FamilyCut& cut) const;
+  /// Encloses the cut to 2^-47 of itself.
+  void refine(FamilyCut& cut) const;
   /// Sign of a - b.
   [[nodiscard]] Sign compare(const FamilyCut& a, const FamilyCut& b) const;
 

@@ -8,6 +8,7 @@
 #include <random>
 #include <set>
 
+#include "linespace/mesh_io.h"
 #include "tests/support/add_box.h"
 #include "tests/support/generators.h"
 #include "tests/support/light_crossings.h"
@@ -64,7 +65,7 @@ struct Lit {
         << scene.faces().size() << " faces";
   }
   [[nodiscard]] std::string structure(const Point& p) const {
-    return testing::seen_structure(index, scene, source, source_facets, p);
+    return testing::seen_structure(index, scene, source, source_facets, floor_facet, p);
   }
   [[nodiscard]] std::map<LightEventKind, int> pieces_on_floor() const {
     std::map<LightEventKind, int> out;
@@ -447,6 +448,75 @@ TEST(LightEvents, PowersOfTwoAndAxes) {
       EXPECT_EQ(again.events.traces[i].generators, lit.events.traces[i].generators);
     }
   }
+}
+
+TEST(LightEvents, CornellBox) {
+  const Lit lit(read_mesh(std::string(SIGHTLINE_EXAMPLES) + "/scenes/cornell.obj"));
+  int changes = 0;
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> u(1, 54);
+  for (int i = 0; i < 12; ++i) {
+    expect_complete(lit, {u(random), 0, u(random)}, {u(random), 0, u(random)}, changes);
+  }
+  EXPECT_GT(changes, 20);
+}
+
+// Sheets through each other: edges that pass through faces end what is seen of them.
+TEST(LightEvents, CrossingTriangles) {
+  int changes = 0;
+  for (int scene = 0; scene < 8; ++scene) {
+    std::mt19937 random(300 + scene);
+    std::uniform_real_distribution<double> u(-1.25, 1.25);
+    PolygonSoup soup;
+    add_rectangle(soup, "light", -1, -1, 1, 1, 4, false);
+    for (int i = 0; i < 4; ++i) {
+      std::vector<Point> c;
+      for (int k = 0; k < 3; ++k)
+        c.emplace_back(u(random), u(random), 2 + 0.6 * u(random));
+      add_polygon(soup, "t" + std::to_string(i), c);
+    }
+    add_rectangle(soup, "floor", -12, -12, 12, 12, 0, true);
+    const Lit lit(soup);
+    changes += expect_complete_along(lit, 6, 350 + scene, -4, -4, 4, 4);
+  }
+  EXPECT_GT(changes, 200);
+}
+
+// All in line, boxes that touch too, a light in whose planes walls lie: on walls, roofs
+// and the ground alike.
+TEST(LightEvents, EveryFacetOfAlignedCities) {
+  int changes = 0;
+  for (int seed = 1; seed <= 4; ++seed) {
+    PolygonSoup soup = testing::grid_city(seed, 42, {.may_touch = seed % 2 == 0});
+    Point low = soup.vertices[0];
+    Point high = low;
+    for (const Point& p : soup.vertices) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    const Point middle = 0.5 * (low + high);
+    const double x = std::floor(middle.x());
+    const double y = std::floor(middle.y());
+    add_rectangle(soup, "light", x - 3, y - 2, x + 3, y + 3, high.z() + 1, false);
+    Lit lit(soup, "light", "ground");
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> u(0.03, 0.97);
+    for (std::size_t f = 0; f < lit.scene.faces().size(); f += 2) {
+      const auto ids = lit.scene.face_points(static_cast<int>(f));
+      const Point a = lit.scene.point(ids[0]);
+      const Point b = lit.scene.point(ids[1]) - a;
+      const Point c = lit.scene.point(ids[3]) - a;
+      lit.floor_facet = lit.scene.faces()[f].facet;
+      if (lit.floor_facet == lit.source_facets[0]) continue;
+      // Small integers and axes: the points stay in the plane.
+      for (int i = 0; i < 3; ++i) {
+        const Point p = a + u(random) * b + u(random) * c;
+        const Point q = a + u(random) * b + u(random) * c;
+        expect_complete(lit, p, q, changes);
+      }
+    }
+  }
+  EXPECT_GT(changes, 20);
 }
 
 TEST(LightEvents, ScatteredTriangles) {

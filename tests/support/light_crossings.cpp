@@ -214,10 +214,13 @@ int wrong_pieces(const internal::LightSpace& space, const internal::LightEvents&
       });
       // Both points that make the line lie on the way.
       const auto on_way = [&](const Eigen::Vector4d& x) {
-        const double u = (x.head<3>() / x[3] - p).dot(way) / way.squaredNorm();
-        return u > -1e-9 && u < 1 + 1e-9;
+        return (x.head<3>() / x[3] - p).dot(way) / way.squaredNorm();
       };
-      const bool between = on_way(on_source.first(s)) && on_way(on_source.last(s));
+      const double first = on_way(on_source.first(s));
+      const double last = on_way(on_source.last(s));
+      const bool between = std::min(first, last) > -1e-9 &&
+                           std::max(first, last) < 1 + 1e-9 &&
+                           (trace.straight || first < last);
       bool right =
           lit && between && passes(scene, piece.face, p - 0.01 * way, q, -1e-10 * size);
       for (std::size_t f = 0; f < scene.faces().size() && right; ++f) {
@@ -232,10 +235,18 @@ int wrong_pieces(const internal::LightSpace& space, const internal::LightEvents&
 
 std::string seen_structure(const PointViewIndex& index, const Scene& scene,
                            const std::vector<Point>& source,
-                           const std::vector<int>& facets, const Point& eye) {
+                           const std::vector<int>& facets, int receiver,
+                           const Point& eye) {
+  const Eigen::Vector4d plane = plane_of_face(scene, scene.facets()[receiver].faces[0]);
+  const auto on_horizon = [&](int edge) {
+    const auto& ends = scene.edges()[edge].points;
+    return std::ranges::all_of(
+        ends, [&](int p) { return plane.head<3>().dot(scene.point(p)) + plane[3] == 0; });
+  };
   const PointView view = index.view_through(eye_at(eye), source);
   const auto name = [&](int half_edge) -> std::string {
     const MapEdge& e = view.edges[half_edge / 2];
+    if (e.line.edge >= 0 && on_horizon(e.line.edge)) return "h";
     if (e.line.edge >= 0) return "e" + std::to_string(first_in_line(scene, e.line.edge));
     if (e.line.facets[0] >= 0) {
       return "x" + std::to_string(e.line.facets[0]) + "," +

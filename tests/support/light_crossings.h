@@ -18,8 +18,8 @@ namespace sightline::testing {
                                                   int facet, const Point& p,
                                                   const Point& q);
 
-/// Pieces whose middle line, in doubles, misses the receiver's face or the source, or does
-/// not pass its generators between the two, or certainly passes the inside of a face
+/// Pieces whose middle line, in doubles, misses the receiver's face or the source, or
+/// does not pass its generators between the two, or certainly passes the inside of a face
 /// there.  Horizons are left out.
 [[nodiscard]] int wrong_pieces(const internal::LightSpace& space,
                                const internal::LightEvents& events);
@@ -31,10 +31,10 @@ namespace sightline::testing {
 
 /// The boundaries of what the eye sees of some facets, within a convex window that holds
 /// them, as text: for each the cyclic list of what its sides lie on.  Edges on one line
-/// have one name.
+/// have one name, and so have all in the plane of the receiver, which are its horizon.
 [[nodiscard]] std::string seen_structure(const PointViewIndex& index, const Scene& scene,
                                          const std::vector<Point>& window,
-                                         const std::vector<int>& facets,
+                                         const std::vector<int>& facets, int receiver,
                                          const Point& eye);
 
 }  // namespace sightline::testing
