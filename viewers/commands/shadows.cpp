@@ -322,6 +322,13 @@ Command add_shadows_command(CLI::App& app) {
                     "\"seen\", its corners");
   command->add_flag("--gradient", options->gradient,
                     "add \"gradient\", of the form factor with the point");
+  add_names(*command, "--receivers", options->receivers,
+            "faces on which lit region, penumbra and umbra are found, with the mesh of "
+            "curves along which the view of the source changes (default, without --at "
+            "and --png: all groups but the source's)");
+  command->add_flag("--list", options->list,
+                    "add \"facets\" to each receiver: the mesh's vertices, edges and "
+                    "faces; and \"structures\"");
   command
       ->add_option(
           "--csv", options->csv,
