@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 
+#include "linespace/work/stop_scope.h"
 #include "shadows/planar/arcs/candidate_pairs.h"
 #include "shadows/planar/half_edge_order.h"
 #include "linespace/picture/classes.h"
@@ -13,9 +14,13 @@
 namespace sightline::internal {
 namespace {
 
+// A stop is heard in the calling thread, which takes part.
 template <class F>
 void in_parallel(std::size_t count, const F& f) {
-  oneapi::tbb::parallel_for(std::size_t{0}, count, f);
+  oneapi::tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    hear_stop();
+    f(i);
+  });
 }
 
 // A position on an arc that will be a vertex.

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "linespace/scene.h"
+#include "linespace/work/stop_scope.h"
 #include "shadows/planar/scan_line.h"
 #include "linespace/picture/classes.h"
 
@@ -67,6 +68,7 @@ class FaceFinder {
     }
     const ScanIndex index(map_);
     for (std::size_t v = 0; v < best.size(); ++v) {
+      hear_stop();
       if (best[v] >= 0) place(index, best[v]);
     }
   }

@@ -44,6 +44,8 @@ class PlanarMap {
   /// Ids may repeat; where two curves with one id coincide, it is listed once.  Throws
   /// InvalidInput for a curve that is a point, whose ends are not in order or that leaves
   /// the outline, and for an outline without area.
+  /// Runs on the threads of TBB's arena that it is called in; the answer does not depend
+  /// on them.  Hears a stop of the calling thread (linespace/work/stop_scope.h).
   /// Cost: near-linear in curves and crossings for curves that are short compared with
   /// the outline.
   PlanarMap(std::span<const PlaneCurve> curves, const PlaneOutline& outline);

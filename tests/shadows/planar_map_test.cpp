@@ -303,22 +303,24 @@ bool inside_bowl(const PlanePoint& p, const Rational& a) {
   return p[1] > 0 && p[1] < a * p[0] * (1 - p[0]);
 }
 
-// Faces that are thinner than doubles tell apart, with a segment alone in one of them.
+// Faces that are thinner than doubles tell apart, one with a segment alone in it.
 TEST(PlanarMapOfConics, FacesTooThinForDoubles) {
-  for (const int bits : {30, 60, 90, 300}) {
+  for (const int bits : {30, 60, -60, 90, 300, -300}) {
     SCOPED_TRACE(bits);
-    const Rational a(1, Integer(1) << bits);
+    const bool with_segment = bits > 0;
+    const Rational a(1, Integer(1) << std::abs(bits));
     const PlanePoint shift{Rational(1, 3), Rational(1, 7)};
     // y = a x (1 - x), moved by `shift`.
     const RationalQuadratic x{shift[0], 1, 0}, y{shift[1], a, -a}, w{1, 0, 0};
     const PlanePoint left = shift, right{shift[0] + 1, shift[1]};
-    const std::vector curves{
-        PlaneCurve{1, x, y, w, rational_end(0), rational_end(1)},
-        plane_segment(2, left, right),
-        plane_segment(3, {shift[0] + Rational(1, 4), shift[1] + a / 16},
-                      {shift[0] + Rational(3, 4), shift[1] + a / 15})};
+    std::vector curves{PlaneCurve{1, x, y, w, rational_end(0), rational_end(1)},
+                       plane_segment(2, left, right)};
+    if (with_segment)
+      curves.push_back(plane_segment(3, {shift[0] + Rational(1, 4), shift[1] + a / 16},
+                                     {shift[0] + Rational(3, 4), shift[1] + a / 15}));
     const PlanarMap map(curves, square(0, 2));
-    EXPECT_EQ(counts(map), (Counts{4 + 2 + 2, 4 + 2 + 1, 2}));
+    EXPECT_EQ(counts(map), with_segment ? (Counts{4 + 2 + 2, 4 + 2 + 1, 2})
+                                        : (Counts{4 + 2, 4 + 2, 2}));
     expect_valid(map);
     int thin = 0;
     for (int f = 0; f < 2; ++f) {
@@ -327,10 +329,111 @@ TEST(PlanarMapOfConics, FacesTooThinForDoubles) {
       p[1] -= shift[1];
       if (inside_bowl(p, a)) {
         ++thin;
-        EXPECT_EQ(map.holes(f).size(), 1u);
+        EXPECT_EQ(map.holes(f).size(), with_segment ? 1u : 0u);
       }
     }
     EXPECT_EQ(thin, 1);
+  }
+}
+
+// y = c0 + c1 x + c2 x^2.
+PlaneCurve parabola(int id, const Rational& c0, const Rational& c1, const Rational& c2,
+                    const Rational& from, const Rational& to) {
+  return {id, {0, 1, 0}, {c0, c1, c2}, {1, 0, 0}, rational_end(from), rational_end(to)};
+}
+
+// Two parabolas that cross at x = c - e and c + e, closer than doubles tell apart, and a
+// third that passes through the first of these points.
+TEST(PlanarMapOfConics, CrossingsNextToOneAnother) {
+  const Rational c(1, 3), e(1, Integer(1) << 70);
+  // y = x^2, that plus (x - c)^2 - e^2, that plus (x - c + e).
+  const std::vector curves{parabola(1, 0, 0, 1, -1, 1),
+                           parabola(2, c * c - e * e, -2 * c, 2, Rational(-1, 8), 1),
+                           parabola(3, e - c, 1, 1, -1, Rational(3, 4))};
+  const PlanarMap map(curves, square(-4, 4));
+  expect_valid(map);
+  // Crossings: 1 and 2 in two points, 3 in the first of them; 2 and 3 again where x - c
+  // - e = 1, beyond the end of 3.
+  EXPECT_EQ(counts(map), (Counts{4 + 6 + 2, 4 + 3 + 3 + 2, 2}));
+  int of_six = 0;
+  for (int v = 0; v < map.vertex_count(); ++v) of_six += map.star(v).size() == 6;
+  EXPECT_EQ(of_six, 1);
+  for (int f = 0; f < map.face_count(); ++f) {
+    if (map.area(f) > 1) continue;
+    const PlanePoint p = map.interior_point(f);
+    const Rational x = p[0] - c;
+    EXPECT_TRUE(p[1] < p[0] * p[0] && p[1] > p[0] * p[0] + x * x - e * e);
+  }
+}
+
+// An arc that ends just before, on, or just after a line.
+TEST(PlanarMapOfConics, EndsNextToALine) {
+  const Rational c(1, 3), e(1, Integer(1) << 70);
+  for (const int past : {-1, 0, 1}) {
+    SCOPED_TRACE(past);
+    const std::vector curves{parabola(1, 0, 0, 1, -1, c + past * e),
+                             plane_segment(2, {c, 0}, {c, 1})};
+    const PlanarMap map(curves, square(-4, 4));
+    expect_valid(map);
+    EXPECT_EQ(counts(map), past < 0    ? (Counts{4 + 4, 4 + 2, 1})
+                           : past == 0 ? (Counts{4 + 4, 4 + 3, 1})
+                                       : (Counts{4 + 5, 4 + 4, 1}));
+  }
+}
+
+// On the line y = 0 parabolas with the roots c and d, and c and d + e.
+TEST(PlanarMapOfConics, OneCommonRootAndTwoNeighbours) {
+  const Rational c(1, 3), d(5, 7), e(1, Integer(1) << 70);
+  const auto with_roots = [&](int id, const Rational& u, const Rational& v) {
+    return parabola(id, u * v, -u - v, 1, -1, 2);
+  };
+  const std::vector curves{segment(1, -2, 0, 2, 0), with_roots(2, c, d),
+                           with_roots(3, c, d + e)};
+  const PlanarMap map(curves, square(-4, 4));
+  expect_valid(map);
+  EXPECT_EQ(counts(map), (Counts{4 + 6 + 3, 4 + 4 + 3 + 3, 3}));
+}
+
+double smallest_area(const PlanarMap& map) {
+  double area = map.area(0);
+  for (int f = 1; f < map.face_count(); ++f) area = std::min(area, map.area(f));
+  return area;
+}
+
+TEST(PlanarMapOfConics, AreasInClosedForm) {
+  // A parabola over its chord: a sixth of the cubed width; from the flat to the bent.
+  for (const int k : {1, 10, 1000}) {
+    const PlanarMap map(std::vector{parabola(1, 0, Rational(1, k), Rational(-1, k), 0, 1),
+                                    segment(2, 0, 0, 1, 0)},
+                        square(-1, 2));
+    EXPECT_NEAR(smallest_area(map), 1. / 6 / k, 1e-15);
+  }
+  // A circle in four quarters.
+  std::vector<PlaneCurve> curves;
+  append_circle(curves, 1, {0, 0}, 2);
+  const PlanarMap circle(curves, square(-9, 9));
+  EXPECT_NEAR(smallest_area(circle), 4 * std::numbers::pi, 2e-14);
+  // More than half of an ellipse in one arc: a negative weight.
+  const PlaneCurve ellipse{1,         {3, 0, -3},       {0, 4, 0},
+                           {1, 0, 1}, rational_end(-2), rational_end(2)};
+  // Between the angles +-2 atan 2 of the circle that it is the image of.
+  const double angle = 2 * std::atan(2.);
+  const PlanarMap large(
+      std::vector{ellipse, plane_segment(2, {Rational(-9, 5), Rational(8, 5)},
+                                         {Rational(-9, 5), Rational(-8, 5)})},
+      square(-9, 9));
+  EXPECT_NEAR(smallest_area(large), 6 * (angle - std::sin(angle) * std::cos(angle)),
+              2e-14);
+  // A hyperbola y = 1 / x over the axis, from 1 to 2 and from 1 to 100.
+  for (const int to : {2, 100}) {
+    const PlanarMap map(
+        std::vector{
+            PlaneCurve{
+                1, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, rational_end(1), rational_end(to)},
+            segment(2, 1, 0, to, 0), segment(3, 1, 0, 1, 1),
+            plane_segment(4, {to, 0}, {to, Rational(1, to)})},
+        square(-1, 110));
+    EXPECT_NEAR(smallest_area(map), std::log(to), 1e-13);
   }
 }
 

@@ -51,12 +51,14 @@ ArcDoubles arc_doubles(const PlaneSupport& support, const BallNumber& from,
 // With u = 2^-53, a form r at a point p is off by at most
 //   E = |p| e_r + |r| e_p + 3 e_r e_p + 4 u |r| |p|,   |.| sums of magnitudes.
 // A Bernstein coefficient of a product is a mean of products of values of size at most Z:
-// off by at most 2 Z E + E^2 + 6 u Z^2; F is the difference of two.
+// off by at most 2 Z E + E^2 + 6 u Z^2; F is the difference of two.  What underflows is
+// less than kUnderflow.
 bool certainly_beside(const ArcDoubles& a, const ArcDoubles& b) {
   const double e =
       (a.point_size * b.form_error + b.form_size * a.point_error +
        3 * b.form_error * a.point_error + 4 * kUnit * b.form_size * a.point_size) *
       (1 + 16 * kUnit);
+  constexpr double kUnderflow = 0x1p-1000;
   double z[3][3];
   double largest = 0;
   const int rows = b.straight ? 1 : 3;
@@ -67,7 +69,7 @@ bool certainly_beside(const ArcDoubles& a, const ArcDoubles& b) {
       largest = std::max(largest, std::abs(z[i][k]));
     }
   }
-  if (b.straight) return one_sign(std::span(z[0], a.degree + 1), e);
+  if (b.straight) return one_sign(std::span(z[0], a.degree + 1), e + kUnderflow);
   const double error =
       (2 * (2 * largest * e + e * e) + 16 * kUnit * largest * largest) * (1 + 16 * kUnit);
   const auto& [u, v, w] = z;
@@ -75,14 +77,14 @@ bool certainly_beside(const ArcDoubles& a, const ArcDoubles& b) {
     const double f[3] = {u[0] * w[0] - v[0] * v[0],
                          0.5 * (u[0] * w[1] + u[1] * w[0]) - v[0] * v[1],
                          u[1] * w[1] - v[1] * v[1]};
-    return one_sign(f, error);
+    return one_sign(f, error + kUnderflow);
   }
   const double f[5] = {
       u[0] * w[0] - v[0] * v[0], 0.5 * (u[0] * w[1] + u[1] * w[0]) - v[0] * v[1],
       (u[0] * w[2] + 4 * u[1] * w[1] + u[2] * w[0] - 2 * v[0] * v[2] - 4 * v[1] * v[1]) /
           6,
       0.5 * (u[1] * w[2] + u[2] * w[1]) - v[1] * v[2], u[2] * w[2] - v[2] * v[2]};
-  return one_sign(f, error);
+  return one_sign(f, error + kUnderflow);
 }
 
 }  // namespace sightline::internal
