@@ -6,6 +6,7 @@
 
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <optional>
@@ -52,8 +53,12 @@ struct Backprojection {
   /// Within 1e-12.
   std::optional<double> form_factor;
   /// Of the form factor with the point, 1 / scene units; nullopt without a normal, and
-  /// where two things are seen in line along the boundary.
+  /// where it differs from side to side.
   std::optional<Eigen::Vector3d> gradient;
+  /// Where the point lies in one plane in which things are seen in line, and the gradient
+  /// differs on its two sides: both limits.  Where it lies in several such planes, neither
+  /// this nor the gradient is told.
+  std::optional<std::array<Eigen::Vector3d, 2>> one_sided = std::nullopt;
   /// In a canonical order: two points see the source alike iff their boundaries have the
   /// same source faces and sides.
   std::vector<SeenBoundary> boundaries;

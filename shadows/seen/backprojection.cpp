@@ -78,62 +78,159 @@ BackprojectionIndex::BackprojectionIndex(const Scene& scene, const LightSource& 
 BackprojectionIndex::~BackprojectionIndex() = default;
 BackprojectionIndex::BackprojectionIndex(BackprojectionIndex&&) noexcept = default;
 
-Backprojection BackprojectionIndex::from(const ShadowPoint& point,
-                                         const BackprojectionOptions& options) const {
-  const SourceScene& source = impl_->source;
-  const Viewpoint viewpoint{Viewpoint::Kind::Eye, point.at};
-  const EyeSpace eye(source.scene(), viewpoint);
-  const EyeStar star(eye);
-  std::optional<Horizon> horizon;
-  LongEigen normal = LongEigen::Zero();
-  if (point.normal) {
+namespace {
+
+// The planes through the point in which things are seen in line, by normals.
+class EventPlanes {
+ public:
+  void add(ExactPoint normal) {
+    for (const ExactPoint& n : normals_) {
+      if (exact_cross(n, normal) == ExactPoint{}) return;
+    }
+    normals_.push_back(std::move(normal));
+  }
+  void add_line(const EyeSpace& eye, int line) {
+    const auto [a, b] = eye.scene().lines()[line].ends;
+    add(exact_cross(eye.exact_vector(a), eye.exact_vector(b)));
+  }
+  void add_face(const EyeSpace& eye, int face) {
+    const ViewScene& scene = eye.scene();
+    const auto t = plane_points(scene.scene(), face);
+    const ExactPoint a = scene.exact(t[0]);
+    add(exact_cross(exact_difference(scene.exact(t[1]), a),
+                    exact_difference(scene.exact(t[2]), a)));
+  }
+  [[nodiscard]] const std::vector<ExactPoint>& normals() const { return normals_; }
+
+ private:
+  std::vector<ExactPoint> normals_;
+};
+
+// One point that asks all planes of the source.
+class Asker {
+ public:
+  Asker(const SourceScene& source, const std::vector<double>& areas,
+        const ShadowPoint& point, const BackprojectionOptions& options)
+      : source_(&source),
+        areas_(&areas),
+        viewpoint_{Viewpoint::Kind::Eye, point.at},
+        options_(options),
+        eye_(source.scene(), viewpoint_),
+        star_(eye_) {
+    if (!point.normal) return;
     const ExactPoint n = exact_point(*point.normal);
-    normal = unit(n);
-    horizon.emplace(eye.eye(), n);
+    normal_ = unit(n);
+    horizon_.emplace(eye_.eye(), n);
   }
 
-  Backprojection seen{ShadowClass::Umbra, 0, std::nullopt, std::nullopt, {}};
-  double facing = 0, area = 0, factor = 0;
-  std::optional<Eigen::Vector3d> gradient = Eigen::Vector3d::Zero().eval();
-  bool any_seen = false, any_hidden = false;
-  for (std::size_t i = 0; i < source.planes().size(); ++i) {
-    const SourcePlane& plane = source.planes()[i];
-    const Sign side = eye.front(plane.faces.front());
-    if ((plane.fronts.front() ? side : -side) != Sign::Positive) continue;
-    facing += impl_->areas[i];
-    if (star.place() == EyePlace::Inside) continue;
-    const SourceView view({.source = &source,
+  Backprojection ask() {
+    const std::vector<SourcePlane>& planes = source_->planes();
+    for (std::size_t i = 0; i < planes.size(); ++i) {
+      const Sign side = eye_.front(planes[i].faces.front());
+      if (side == Sign::Zero) events_.add_face(eye_, planes[i].faces.front());
+      if ((planes[i].fronts.front() ? side : -side) != Sign::Positive) continue;
+      facing_ += (*areas_)[i];
+      if (star_.place() != EyePlace::Inside) ask_plane(planes[i], (*areas_)[i]);
+    }
+    if (any_seen_) {
+      seen_.shadow = any_hidden_ ? ShadowClass::Penumbra : ShadowClass::Lit;
+      seen_.visible_fraction = any_hidden_ ? std::min(area_ / facing_, 1.0) : 1;
+    }
+    if (horizon_) {
+      seen_.form_factor = factor_;
+      if (options_.gradient) seen_.gradient = gradient_;
+    }
+    return std::move(seen_);
+  }
+
+  [[nodiscard]] const EventPlanes& events() const { return events_; }
+  [[nodiscard]] const ExactPoint& at() const { return eye_.eye(); }
+
+ private:
+  void ask_plane(const SourcePlane& plane, double open_area) {
+    const SourceView view({.source = source_,
                            .plane = &plane,
-                           .eye = viewpoint,
-                           .horizon = horizon ? &*horizon : nullptr,
-                           .star = &star,
-                           .all_lines = options.boundaries || options.gradient});
-    any_seen |= view.any_seen();
-    any_hidden |= view.any_hidden();
-    if (!view.any_seen()) continue;
+                           .eye = viewpoint_,
+                           .horizon = horizon_ ? &*horizon_ : nullptr,
+                           .star = &star_,
+                           .all_lines = options_.boundaries || options_.gradient});
+    any_seen_ |= view.any_seen();
+    any_hidden_ |= view.any_hidden();
+    for (const int face : view.edge_on_faces()) events_.add_face(view.eye(), face);
+    if (!view.any_seen()) return;
     const SeenPart part = seen_part(view);
-    const PlaneFrame frame(source, plane, view.eye());
-    const double part_area = view.any_hidden() ? seen_area(frame, part) : impl_->areas[i];
-    area += part_area;
-    if (horizon) {
+    const PlaneFrame frame(*source_, plane, view.eye());
+    const double part_area = view.any_hidden() ? seen_area(frame, part) : open_area;
+    area_ += part_area;
+    if (horizon_) {
       const SeenFormFactor of_part =
-          seen_form_factor(view, frame, part, normal, part_area);
-      factor += of_part.value;
-      if (!of_part.gradient) gradient.reset();
-      if (gradient) *gradient += *of_part.gradient;
+          seen_form_factor(view, frame, part, normal_, part_area);
+      factor_ += of_part.value;
+      if (!of_part.gradient) gradient_.reset();
+      if (gradient_) *gradient_ += *of_part.gradient;
+      for (const int line : of_part.in_line) events_.add_line(view.eye(), line);
     }
-    if (options.boundaries) {
-      auto boundaries = seen_boundaries(source, plane, view, part);
-      std::ranges::move(boundaries, std::back_inserter(seen.boundaries));
+    if (options_.boundaries) {
+      auto boundaries = seen_boundaries(*source_, plane, view, part);
+      std::ranges::move(boundaries, std::back_inserter(seen_.boundaries));
     }
   }
-  if (any_seen) {
-    seen.shadow = any_hidden ? ShadowClass::Penumbra : ShadowClass::Lit;
-    seen.visible_fraction = any_hidden ? std::min(area / facing, 1.0) : 1;
+
+  const SourceScene* source_;
+  const std::vector<double>* areas_;
+  Viewpoint viewpoint_;
+  BackprojectionOptions options_;
+  EyeSpace eye_;
+  EyeStar star_;
+  std::optional<Horizon> horizon_;
+  LongEigen normal_ = LongEigen::Zero();
+  Backprojection seen_{ShadowClass::Umbra, 0, std::nullopt, std::nullopt, std::nullopt, {}};
+  double facing_ = 0, area_ = 0, factor_ = 0;
+  std::optional<Eigen::Vector3d> gradient_ = Eigen::Vector3d::Zero().eval();
+  bool any_seen_ = false, any_hidden_ = false;
+  EventPlanes events_;
+};
+
+// So far beside an event's plane, relative to the light's distance, is the gradient the
+// limit to all digits that are told: it changes by that share of itself, and roundings of
+// coordinates, which might put other events there, are smaller.
+constexpr double kBeside = 0x1p-40;
+constexpr double kSameGradient = 1e-9;
+
+}  // namespace
+
+Backprojection BackprojectionIndex::from(const ShadowPoint& point,
+                                         const BackprojectionOptions& options) const {
+  Asker asker(impl_->source, impl_->areas, point, options);
+  Backprojection seen = asker.ask();
+  if (!options.gradient || !point.normal || asker.events().normals().empty())
+    return seen;
+  seen.gradient.reset();
+  if (asker.events().normals().size() > 1) return seen;
+  // To both sides of the plane, within the surface.
+  const ExactPoint &g = asker.events().normals().front(), n = exact_point(*point.normal);
+  const Rational along = exact_dot(g, n) / exact_dot(n, n);
+  ExactPoint way;
+  for (int i = 0; i < 3; ++i) way[i] = g[i] - along * n[i];
+  if (way == ExactPoint{}) return seen;
+  const double distance = (impl_->source.planes().front().hull.front() -
+                           Point(rounded(asker.at()))).norm();
+  const Rational step(kBeside * distance / rounded(way).norm());
+  std::array<Eigen::Vector3d, 2> limits;
+  for (const int side : {0, 1}) {
+    ExactPoint beside = asker.at();
+    for (int i = 0; i < 3; ++i) beside[i] += (side == 0 ? step : -step) * way[i];
+    const ShadowPoint there{exact_position(beside), point.normal};
+    const auto gradient =
+        Asker(impl_->source, impl_->areas, there, {.gradient = true}).ask().gradient;
+    if (!gradient) return seen;
+    limits[side] = *gradient;
   }
-  if (horizon) {
-    seen.form_factor = factor;
-    if (options.gradient) seen.gradient = gradient;
+  const double size = std::max(limits[0].norm(), limits[1].norm());
+  if ((limits[0] - limits[1]).norm() <= kSameGradient * size) {
+    seen.gradient = (limits[0] + limits[1]) / 2;
+  } else {
+    seen.one_sided = limits;
   }
   return seen;
 }

@@ -85,13 +85,15 @@ SeenFormFactor seen_form_factor(const SourceView& view, const PlaneFrame& frame,
   }
   long double sum = 0;
   LongEigen gradient = LongEigen::Zero();
-  bool single = true;
+  std::vector<int> in_line;
   for (const SeenPart::Edge& e : part.edges) {
     const LongEigen &u = rays[e.from], &v = rays[e.to];
     sum -= lambert(u, v, normal) / 2;
     if (std::ranges::count(e.lines, view.horizon_line()) > 0) continue;
-    for (const int line : e.lines)
-      single &= eye.scene().on_one_line(line, e.lines.front());
+    const bool single = std::ranges::all_of(e.lines, [&](int line) {
+      return eye.scene().on_one_line(line, e.lines.front());
+    });
+    if (!single) in_line.push_back(e.lines.front());
     const auto [a, b] = eye.scene().lines()[e.lines.front()].ends;
     const LongEigen p = -long_eigen(eye.vector(a)), q = -long_eigen(eye.vector(b));
     LongEigen outwards = p.cross(q).normalized();
@@ -101,8 +103,8 @@ SeenFormFactor seen_form_factor(const SourceView& view, const PlaneFrame& frame,
     gradient += arc_gradient(u, v, outwards, foot, normal);
   }
   constexpr long double kPi = std::numbers::pi_v<long double>;
-  SeenFormFactor factor{static_cast<double>(sum / kPi), std::nullopt};
-  if (single) factor.gradient = (gradient / kPi).cast<double>();
+  SeenFormFactor factor{static_cast<double>(sum / kPi), std::nullopt, std::move(in_line)};
+  if (factor.in_line.empty()) factor.gradient = (gradient / kPi).cast<double>();
   if (std::abs(factor.value) < kSmallFactor) {
     LongEigen middle = LongEigen::Zero();
     for (const LongEigen& r : rays) middle += r;

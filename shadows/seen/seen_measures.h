@@ -17,6 +17,8 @@ namespace sightline::internal {
 struct SeenFormFactor {
   double value;
   std::optional<Eigen::Vector3d> gradient;
+  /// Lines that are seen in one with others, one of each boundary edge where that is so.
+  std::vector<int> in_line = {};
 };
 [[nodiscard]] SeenFormFactor seen_form_factor(const SourceView& view,
                                               const PlaneFrame& frame,

@@ -43,6 +43,7 @@ SourceView::SourceView(const Question& question)
   eye_.emplace(scene_, question.eye);
   ask_star();
   if (any_hidden_) return;
+  if (question.all_lines) find_edge_on(blockers);
   find_shades(blockers, first_point);
   if (any_hidden_) return;
   for (const Line& line : lines_to_ask()) view(line);
@@ -162,6 +163,21 @@ bool SourceView::covers_all(const Shade& shade) const {
       });
     });
   });
+}
+
+void SourceView::find_edge_on(const std::vector<Blocker>& blockers) {
+  for (const Blocker& b : blockers) {
+    if (eye_->front(b.face) != Sign::Zero) continue;
+    bool positive = false, negative = false;
+    for (const auto& sides : question_.plane->sides) {
+      for (const SourcePlane::Side& side : sides) {
+        const Sign s = scene_.plane_side(b.face, side.ends[0]);
+        positive |= s == Sign::Positive;
+        negative |= s == Sign::Negative;
+      }
+    }
+    if (positive && negative) edge_on_faces_.push_back(b.face);
+  }
 }
 
 void SourceView::find_shades(const std::vector<Blocker>& blockers, int first_cut_point) {

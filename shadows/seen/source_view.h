@@ -38,6 +38,9 @@ class SourceView {
   /// The first line of cuts of blockers with the plane, cut i being of face cut_face(i).
   [[nodiscard]] int first_cut_line() const { return first_cut_line_; }
   [[nodiscard]] int cut_face(int i) const { return cut_faces_[i]; }
+  /// Faces that the eye sees edge-on, with parts of the source on both sides, that lie in
+  /// the way or may do so.
+  [[nodiscard]] const std::vector<int>& edge_on_faces() const { return edge_on_faces_; }
   /// The horizon's line; -1 where it does not cross the plane's faces.
   [[nodiscard]] int horizon_line() const { return horizon_line_; }
 
@@ -63,6 +66,7 @@ class SourceView {
                    std::vector<std::array<int, 2>>& lines);
   [[nodiscard]] bool horizon_hides_all() const;
   void ask_star();
+  void find_edge_on(const std::vector<Blocker>& blockers);
   void find_shades(const std::vector<Blocker>& blockers, int first_cut_point);
   [[nodiscard]] bool apart(const Shade& shade, const Shade& of_source) const;
   [[nodiscard]] bool covers_all(const Shade& shade) const;
@@ -82,7 +86,7 @@ class SourceView {
   std::vector<Shade> shades_;  // of the source first
   std::size_t source_shades_ = 0;
   int first_cut_line_ = 0, horizon_line_ = -1;
-  std::vector<int> cut_faces_;
+  std::vector<int> cut_faces_, edge_on_faces_;
   bool ask_star_ = false;  // sight into material is free for a part of the source only
   bool any_seen_ = false, any_hidden_ = false;
   std::vector<LinePiece> pieces_;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "shadows/point_form_factor.h"
@@ -100,6 +101,31 @@ TEST(Backprojection, GradientEqualsDifferences) {
     const double slope = (8 * (f(1) - f(-1)) - (f(2) - f(-2))) / (12 * h);
     EXPECT_NEAR((*seen.gradient)[axis], slope, 1e-9) << axis;
   }
+}
+
+TEST(Backprojection, GradientHasTwoSidesInThePlaneOfAFace) {
+  // In the plane x = 1/2 of the box's side: towards smaller x the lower edge of that side
+  // hides, towards larger x the upper one.
+  PolygonSoup soup;
+  add_lamp(soup, 4);
+  add_box(soup, "box", {-8, -8, 1}, {0.5, 8, 2});
+  const Lit lit(soup);
+  const Backprojection seen = lit.at({0.5, 0.25, 0});
+  EXPECT_FALSE(seen.gradient.has_value());
+  ASSERT_TRUE(seen.one_sided.has_value());
+  const auto slope = [&](double step) {
+    const auto f = [&](double x) { return *lit.at({x, 0.25, 0}).form_factor; };
+    return (-3 * f(0.5) + 4 * f(0.5 + step) - f(0.5 + 2 * step)) / (2 * step);
+  };
+  std::array<double, 2> expected{slope(-0x1p-12), slope(0x1p-12)};
+  std::array<double, 2> found{(*seen.one_sided)[0].x(), (*seen.one_sided)[1].x()};
+  std::ranges::sort(expected);
+  std::ranges::sort(found);
+  EXPECT_NEAR(found[0], expected[0], 1e-6);
+  EXPECT_NEAR(found[1], expected[1], 1e-6);
+  EXPECT_GT(found[1] - found[0], 0.05);
+  // Beside an edge-on sheet that nothing of the light is behind there is one gradient.
+  EXPECT_TRUE(lit.at({3, 0.25, 0}).gradient.has_value());
 }
 
 TEST(Backprojection, HoleOfNextToNothingIsPenumbra) {

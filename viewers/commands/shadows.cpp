@@ -321,7 +321,9 @@ Command add_shadows_command(CLI::App& app) {
                     "add \"structure\", what the sides of the part seen lie on, and "
                     "\"seen\", its corners");
   command->add_flag("--gradient", options->gradient,
-                    "add \"gradient\", of the form factor with the point");
+                    "add \"gradient\", of the form factor with the point; where it "
+                    "differs on the two sides of an edge of the mesh it is null, and "
+                    "\"one_sided\" has both");
   add_names(*command, "--receivers", options->receivers,
             "faces on which lit region, penumbra and umbra are found, with the mesh of "
             "curves along which the view of the source changes (default, without --at "

@@ -61,6 +61,10 @@ Json shadow_json(const ShadowQuestion& question, const Backprojection& seen,
   if (options.gradient) {
     json["gradient"] = nullptr;
     if (seen.gradient) json["gradient"] = vector_json(*seen.gradient);
+    if (seen.one_sided) {
+      json["one_sided"] = Json::array(
+          {vector_json((*seen.one_sided)[0]), vector_json((*seen.one_sided)[1])});
+    }
   }
   if (options.structure) {
     json["structure"] = structure_json(seen.boundaries);
