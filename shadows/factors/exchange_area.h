@@ -28,9 +28,9 @@ struct ExchangeGeometry;
 /// sides, but not where they lie in the sender's or the target's plane.
 /// tolerance: scene units squared.  up: only lines from sender to target count that rise
 /// along it, which must not be 0.
-[[nodiscard]] ExchangeArea exchange_area(std::span<const Point> sender,
-                                         std::span<const Point> target,
-                                         std::span<const std::span<const Point>> blockers,
-                                         double tolerance);
+[[nodiscard]] ExchangeArea exchange_area(
+    std::span<const Point> sender, std::span<const Point> target,
+    std::span<const std::span<const Point>> blockers, double tolerance,
+    const std::optional<Eigen::Vector3d>& up = std::nullopt);
 
 }  // namespace sightline::internal

@@ -1,11 +1,13 @@
 #include "shadows/form_factors.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
 
 #include "linespace/work/parallel.h"
+#include "shadows/factors/exchange_geometry.h"
 #include "shadows/factors/factor_sides.h"
 #include "shadows/factors/pair_factor.h"
 
@@ -103,7 +105,7 @@ class Matrix {
         error += e.error;
         if (up_ && what == kOutside) {
           const ExchangeArea sky =
-              pairs.rising(sides_[s], elsewhere_[t], *up_, tolerance);
+              rising_part(pairs, sides_[s], elsewhere_[t], e, tolerance);
           part.sky += sky.value;
           sky_error += sky.error;
         }
@@ -112,6 +114,21 @@ class Matrix {
       (what == kOthers ? part.others : what == kBacks ? part.backs : part.outside) += sum;
       part.error = std::max(part.error, error);
     }
+  }
+
+  /// Of what leaves through a window.
+  [[nodiscard]] ExchangeArea rising_part(PairFactor& pairs, const PreparedSide& side,
+                                         const PreparedSide& window,
+                                         const ExchangeArea& all,
+                                         double tolerance) const {
+    const auto c = spanning_corners(side.polygon);
+    const Eigen::Vector3d normal = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
+    const Eigen::Vector3d up = up_->normalized();
+    // A side that faces straight up or down has the same horizon.
+    constexpr double kParallel = 1e-14;
+    if (normal.cross(up).norm() > kParallel)
+      return pairs.rising(side, window, up, tolerance);
+    return normal.dot(up) > 0 ? all : ExchangeArea{};
   }
 
   double accuracy_;
