@@ -6,7 +6,6 @@
 #include <cmath>
 #include <iostream>
 
-#include "linespace/numbers/exact_position.h"
 #include "linespace/work/parallel.h"
 #include "shadows/form_factors.h"
 #include "viewers/commands/command_line.h"
