@@ -17,9 +17,11 @@ struct PagePicture {
   std::string caption;  ///< HTML
 };
 
-/// The page for a report.json of `analyse`; pictures are inlined.
+/// The page for a report.json of `analyse`: pictures of the skeleton, the first of them
+/// large, and of views.  All are inlined.
 [[nodiscard]] std::string report_page(const Json& report,
-                                      const std::vector<PagePicture>& pictures);
+                                      const std::vector<PagePicture>& pictures,
+                                      const std::vector<PagePicture>& views = {});
 
 /// RFC 4648.
 [[nodiscard]] std::string base64(const std::string& bytes);

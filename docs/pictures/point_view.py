@@ -67,6 +67,7 @@ CASES = {
     "accident_three_edges": ("three_edges", ALONG_Y),
     "accident_along_edge": ("two_sheets", ["--from=0,-1,0"]),
     "corner_on_a_seam": ("before_a_seam", ["--from=1/2,-6,3/4"]),
+    "edge_passing_a_joint": ("before_a_joint", ["--from=1/2,-6,3/4"]),
     "hidden_accident": ("hidden_three_edges", ALONG_Y),
 }
 

@@ -88,7 +88,8 @@ PointView seen_from(const ViewScene& scene, const Viewpoint& eye,
   const EyeSpace& space = sight.space;
   const EyeStar& star = sight.star;
   const ViewGraph& graph = sight.graph;
-  ViewMap map = make_map(space, graph);
+  const SuspectPoints suspects = suspect_points(space, sight.viewer);
+  ViewMap map = make_map(space, graph, suspects.points, sight.seen);
 
   PointView view;
   view.eye = eye;
@@ -97,7 +98,8 @@ PointView seen_from(const ViewScene& scene, const Viewpoint& eye,
   std::vector<bool> background;
   for (const MapRegion& r : map.regions) background.push_back(r.patches.empty());
   const ViewMeasures measures = measure(space, graph, map.region_of, background);
-  view.accidents = find_accidents(space, sight.window, sight.viewer, sight.seen);
+  view.accidents =
+      find_accidents(space, sight.window, sight.viewer, suspects, sight.seen);
   if (!star.faces().empty()) {
     const GeneratorKind kind = star.place() == EyePlace::Corner ? GeneratorKind::Vertex
                                : star.place() == EyePlace::Edge ? GeneratorKind::Edge
@@ -153,7 +155,8 @@ std::vector<FurtherLine> PointViewIndex::further_lines(const Viewpoint& eye, boo
   const Sight sight(impl_->scene, eye, stage);
   std::vector<FurtherLine> lines;
   if (seams) {
-    lines = seam_lines(sight.space, sight.graph, make_map(sight.space, sight.graph));
+    lines = seam_lines(sight.space, sight.graph,
+                       make_map(sight.space, sight.graph, {}, sight.seen));
   }
   if (hidden) {
     const auto more = hidden_lines(sight.space, sight.star);

@@ -30,6 +30,7 @@ class PointInspector {
       : eye_(&eye), possibly_seen_(possibly_seen), at_(std::move(at)) {}
 
   std::optional<Accident> inspect(bool stretch);
+  [[nodiscard]] bool goes_straight_on(int line);
 
  private:
   void find_lines();
@@ -41,8 +42,9 @@ class PointInspector {
   [[nodiscard]] int corner(const Group& group) const;
   [[nodiscard]] std::vector<ExactPoint> ways(const Passing& p) const;
   [[nodiscard]] std::vector<PictureRay> rays(std::span<const Passing> lines) const;
-  [[nodiscard]] std::vector<int> patches_beside(const Group& group,
+  [[nodiscard]] std::vector<int> patches_beside(const Rational& nearness,
                                                 const PictureRay& ray) const;
+  [[nodiscard]] bool is_seam(const Rational& nearness, const Passing& line) const;
   [[nodiscard]] Accident name() const;
 
   const EyeSpace* eye_;
@@ -136,15 +138,14 @@ void PointInspector::leave_out_hidden() {
                   [&](const Group& g) { return g.nearness < farthest->nearness; });
 }
 
-// The patches that the faces at the group's depth show along a ray just beside one of its
-// lines, ascending.  Behind them others may hang on the same line, as where flush boxes
-// touch.
-std::vector<int> PointInspector::patches_beside(const Group& g,
+// The patches that the faces at one depth show along a ray just beside a line there,
+// ascending.  Behind them others may hang on the same line, as where flush boxes touch.
+std::vector<int> PointInspector::patches_beside(const Rational& nearness,
                                                 const PictureRay& ray) const {
   std::vector<int> shown;
   std::array<Rational, 2> nearest;
   for (const FaceThere& f : faces_) {
-    if (f.nearness != g.nearness || !contains(*eye_, f.face, ray)) continue;
+    if (f.nearness != nearness || !contains(*eye_, f.face, ray)) continue;
     const Nearness there(*eye_, f.face);
     const std::array<Rational, 2> here{there.at(ray.beside[0]), there.at(ray.beside[1])};
     if (!shown.empty() && here < nearest) continue;
@@ -158,15 +159,22 @@ std::vector<int> PointInspector::patches_beside(const Group& g,
   return shown;
 }
 
-// Lines beside which the same patches are seen on either side show nothing.
+// The same patches are seen on either side, each way along the line.
+bool PointInspector::is_seam(const Rational& nearness, const Passing& line) const {
+  const std::vector<PictureRay> beside = rays(std::span(&line, 1));  // left, right, ...
+  for (std::size_t i = 0; i < beside.size(); i += 2) {
+    if (patches_beside(nearness, beside[i]) != patches_beside(nearness, beside[i + 1])) {
+      return false;
+    }
+  }
+  return true;
+}
+
 void PointInspector::leave_out_seams() {
-  std::erase_if(groups_, [&](const Group& g) {
-    const std::vector<PictureRay> beside = rays(g.lines);
-    const std::vector<int> shown = patches_beside(g, beside.front());
-    return !shown.empty() && std::ranges::all_of(beside, [&](const PictureRay& ray) {
-      return patches_beside(g, ray) == shown;
-    });
-  });
+  for (Group& g : groups_) {
+    std::erase_if(g.lines, [&](const Passing& p) { return is_seam(g.nearness, p); });
+  }
+  std::erase_if(groups_, [](const Group& g) { return g.lines.empty(); });
 }
 
 // One line of space that goes straight on.
@@ -223,6 +231,16 @@ Accident PointInspector::name() const {
                : corners == 1 ? AccidentKind::CornerOnEdge
                               : AccidentKind::ThreeEdges;
   return found;
+}
+
+// Of a line that is seen to end in the point.
+bool PointInspector::goes_straight_on(int line) {
+  find_lines();
+  leave_out_seams();
+  return std::ranges::any_of(groups_, [&](const Group& g) {
+    return std::ranges::find(g.lines, line, &Passing::line) != g.lines.end() &&
+           straight(g);
+  });
 }
 
 // Of a point that some lines may share, or of one within a stretch that they may share.
@@ -374,27 +392,36 @@ void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
 
 }  // namespace
 
+SuspectPoints suspect_points(const EyeSpace& eye, const LineViewer& viewer) {
+  SuspectPoints found;
+  for (const Suspect& s : viewer.suspects()) {
+    found.points.push_back(s.point >= 0 ? PicturePoint(eye, s.point)
+                           : s.to       ? middle(eye, s)
+                                        : PicturePoint(eye, s.line, s.at));
+    found.in_stretch.push_back(s.to ? 1 : 0);
+  }
+  return found;
+}
+
+bool goes_straight_on(const EyeSpace& eye, const PicturePoint& point, int line,
+                      std::span<const std::uint8_t> possibly_seen) {
+  return PointInspector(eye, possibly_seen, point).goes_straight_on(line);
+}
+
 std::vector<Accident> find_accidents(const EyeSpace& eye, const Window& window,
-                                     LineViewer& viewer,
+                                     LineViewer& viewer, const SuspectPoints& suspects,
                                      std::span<const std::uint8_t> possibly_seen) {
   std::vector<Accident> found;
   find_edge_on(eye, viewer, possibly_seen, found);
-  std::vector<PicturePoint> points;
-  std::vector<std::uint8_t> stretches;
-  for (const Suspect& s : viewer.suspects()) {
-    points.push_back(s.point >= 0 ? PicturePoint(eye, s.point)
-                     : s.to       ? middle(eye, s)
-                                  : PicturePoint(eye, s.line, s.at));
-    stretches.push_back(s.to ? 1 : 0);
-  }
+  const std::vector<PicturePoint>& points = suspects.points;
   const std::vector<int> numbers = number_points(points);
   for (int i = 0; i < static_cast<int>(points.size()); ++i) {
     hear_stop();
-    if (numbers[i] != i && stretches[i] == 0) continue;
+    const bool stretch = suspects.in_stretch[i] != 0;
+    if (numbers[i] != i && !stretch) continue;
     if (!window.contains(points[i])) continue;
     PointInspector inspector(eye, possibly_seen, points[i]);
-    if (auto accident = inspector.inspect(stretches[i] != 0))
-      found.push_back(std::move(*accident));
+    if (auto accident = inspector.inspect(stretch)) found.push_back(std::move(*accident));
   }
   std::ranges::sort(found);
   found.erase(std::ranges::unique(found).begin(), found.end());

@@ -6,13 +6,17 @@
 #include <set>
 
 #include "linespace/picture/classes.h"
+#include "linespace/view/view_accidents.h"
 
 namespace sightline::internal {
 namespace {
 
 class MapMaker {
  public:
-  MapMaker(const EyeSpace& eye, const ViewGraph& graph) : eye_(&eye), graph_(&graph) {}
+  MapMaker(const EyeSpace& eye, const ViewGraph& graph,
+           std::span<const PicturePoint> suspects,
+           std::span<const std::uint8_t> possibly_seen)
+      : eye_(&eye), graph_(&graph), suspects_(suspects), possibly_seen_(possibly_seen) {}
 
   ViewMap make() {
     join_regions();
@@ -32,6 +36,7 @@ class MapMaker {
   void add_edges();
   void add_edge(const Run& run);
   void add_vertices();
+  void find_accidents_among_ts();
   void add_boundaries();
   [[nodiscard]] int straight_on(int half_edge) const;
   [[nodiscard]] std::vector<Run> runs(bool seams) const;
@@ -40,7 +45,6 @@ class MapMaker {
   [[nodiscard]] bool share_object(int edge) const;
   [[nodiscard]] ExactPoint exact_place(int line, int point) const;
   [[nodiscard]] int corner_on(int line, int point) const;
-  [[nodiscard]] bool ends_at(int line, int point) const;
   [[nodiscard]] Point place(int line, int point) const;
   [[nodiscard]] bool meet_at(int line, int other, int point) const;
   [[nodiscard]] MapVertex vertex(int point, std::span<const int> leaving,
@@ -48,6 +52,8 @@ class MapMaker {
 
   const EyeSpace* eye_;
   const ViewGraph* graph_;
+  std::span<const PicturePoint> suspects_;
+  std::span<const std::uint8_t> possibly_seen_;
   ViewMap map_;
   std::vector<std::uint8_t> seam_;         // of edges of the graph
   std::vector<std::vector<int>> leaving_;  // half-edges that are no seams, by point
@@ -276,13 +282,6 @@ bool MapMaker::meet_at(int line, int other, int point) const {
   return orient3d(s.point(a), s.point(b), s.point(c), s.point(d)) == Sign::Zero;
 }
 
-bool MapMaker::ends_at(int line, int point) const {
-  return corner_on(line, point) >= 0 ||
-         std::ranges::any_of(eye_->scene().lines()[line].ends, [&](int end) {
-           return same_point(PicturePoint(*eye_, end), graph_->points[point]);
-         });
-}
-
 // The corner of the scene that lies on the line where it passes this point; -1 if none.
 int MapMaker::corner_on(int line, int point) const {
   const ViewScene& scene = eye_->scene();
@@ -330,7 +329,6 @@ MapVertex MapMaker::vertex(int point, std::span<const int> leaving,
     for (int i = 0; i < 2; ++i) {
       const auto &near = meeting[i], &far = meeting[1 - i];
       if (near.size() != 2 || far.size() != 1) continue;
-      if (ends_at(line(far.front()), point)) continue;
       if (!eye_->scene().on_one_line(line(near[0]), line(near[1]))) continue;
       v.kind = MapVertexKind::T;
       lines = {std::min(line(near[0]), line(near[1])), line(far.front())};
@@ -339,6 +337,32 @@ MapVertex MapMaker::vertex(int point, std::span<const int> leaving,
     }
   }
   return v;
+}
+
+// Of T-vertices where more than two lines may be seen in one: the far edge may end there.
+void MapMaker::find_accidents_among_ts() {
+  if (suspects_.empty()) return;
+  std::vector<int> ts;
+  std::vector<PicturePoint> points;
+  for (std::size_t v = 0; v < map_.vertices.size(); ++v) {
+    if (map_.vertices[v].kind != MapVertexKind::T) continue;
+    ts.push_back(static_cast<int>(v));
+    points.push_back(graph_->points[map_.point_of_vertex[v]]);
+  }
+  points.insert(points.end(), suspects_.begin(), suspects_.end());
+  const std::vector<int> numbers = number_points(points);
+  std::vector<std::uint8_t> suspect(points.size(), 0);
+  for (std::size_t i = ts.size(); i < points.size(); ++i) suspect[numbers[i]] = 1;
+  for (std::size_t i = 0; i < ts.size(); ++i) {
+    if (suspect[numbers[i]] == 0) continue;
+    MapVertex& v = map_.vertices[ts[i]];
+    if (goes_straight_on(*eye_, points[i], map_.lines_of_vertex[ts[i]][1],
+                         possibly_seen_)) {
+      continue;
+    }
+    v.kind = MapVertexKind::Accident;
+    v.near = v.far = MapLine{};
+  }
 }
 
 void MapMaker::add_vertices() {
@@ -357,6 +381,7 @@ void MapMaker::add_vertices() {
   for (const int p : map_.point_of_vertex)
     map_.components += classes.root(p) == p ? 1 : 0;
   for (MapEdge& e : map_.edges) e.ends = {number[e.ends[0]], number[e.ends[1]]};
+  find_accidents_among_ts();
 }
 
 void MapMaker::add_boundaries() {
@@ -381,8 +406,10 @@ void MapMaker::add_boundaries() {
 
 }  // namespace
 
-ViewMap make_map(const EyeSpace& eye, const ViewGraph& graph) {
-  return MapMaker(eye, graph).make();
+ViewMap make_map(const EyeSpace& eye, const ViewGraph& graph,
+                 std::span<const PicturePoint> suspects,
+                 std::span<const std::uint8_t> possibly_seen) {
+  return MapMaker(eye, graph, suspects, possibly_seen).make();
 }
 
 }  // namespace sightline::internal

@@ -29,6 +29,10 @@ struct ViewMap {
   std::vector<Seam> seam_pieces;
 };
 
-[[nodiscard]] ViewMap make_map(const EyeSpace& eye, const ViewGraph& graph);
+/// `suspects`: all points of the picture in which more than two lines that lie apart in
+/// space may be seen, and perhaps others.
+[[nodiscard]] ViewMap make_map(const EyeSpace& eye, const ViewGraph& graph,
+                               std::span<const PicturePoint> suspects,
+                               std::span<const std::uint8_t> possibly_seen);
 
 }  // namespace sightline::internal

@@ -54,10 +54,10 @@ std::string structure_of(const ViewScene& scene, const ViewMap& map) {
   for (const int e : order) {
     const EdgeLabel& l = labels[e];
     add(l.line);
-    // A straight edge of the map may show a part with one face and a part with more: what
-    // it is called then depends on how much of it is seen.
-    const MapEdgeKind kind = map.edges[e].kind;
-    add(static_cast<int>(kind == MapEdgeKind::Boundary ? MapEdgeKind::Silhouette : kind));
+    // Not the kind: a straight edge of the map may show parts of one object and of
+    // another, with one face and with more, so that its kind depends on how much of it is
+    // seen.  All else that makes the kind follows from the line and the patches beside
+    // it.
     for (const Label& end : {l.from, l.to}) {
       for (const int x : end) add(x);
     }

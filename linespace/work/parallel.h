@@ -82,12 +82,13 @@ void for_each_of(std::size_t from, std::size_t to, std::size_t count,
 /// has passed: what is finished by then is consumed, a prefix of all.  A step that asks
 /// the deadline itself may break off; one that calls hear_stop() does.  Stops, too, when
 /// consume returns false, after which nothing is consumed.  Returns why not all was
-/// consumed, or Nothing.  Progress is told under the name of the stage.
+/// consumed, or Nothing.  Progress is told under the name of the stage.  At most
+/// `in_flight` results are held: where consume is slow, steps wait for it.
 template <class Make, class Step, class Consume>
 StoppedBy for_each_parallel(std::size_t count, const Request& request,
                             const Deadline& deadline, std::string_view stage,
                             StageCounts& counts, Make&& make, Step&& step,
-                            Consume&& consume) {
+                            Consume&& consume, std::size_t in_flight = 1024) {
   const int threads = threads_of(request);
   using Worker = decltype(make());
   using Result = decltype(step(*std::declval<Worker&>(), std::size_t{0}));
@@ -96,7 +97,6 @@ StoppedBy for_each_parallel(std::size_t count, const Request& request,
     std::optional<Result> result;
     StageCounts counts;
   };
-  constexpr std::size_t kInFlight = 1024;
   std::atomic<bool> stopped{false};
   std::size_t next = 0;
   bool cut = false;
@@ -162,7 +162,7 @@ StoppedBy for_each_parallel(std::size_t count, const Request& request,
   arena.execute([&] {
     using oneapi::tbb::filter_mode;
     oneapi::tbb::parallel_pipeline(
-        kInFlight, oneapi::tbb::make_filter<void, std::size_t>(
+        in_flight, oneapi::tbb::make_filter<void, std::size_t>(
                        filter_mode::serial_in_order, number) &
                        oneapi::tbb::make_filter<std::size_t, std::shared_ptr<Item>>(
                            filter_mode::parallel, compute) &

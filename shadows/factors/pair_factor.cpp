@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "linespace/polygon_visibility.h"
 
@@ -73,9 +74,15 @@ void PairFactor::decide(const PreparedSide& a, const PreparedSide& b, ExchangeAr
   ++counts_.decided;
   VisibilityQuestion question{before(b.plane, a.polygon), before(a.plane, b.polygon), {}};
   for (const int i : between_) question.occluders.push_back(blockers_.polygon(i));
-  const VisibilityAnswer answer = polygon_visibility(question);
-  if (answer.verdict == Verdict::Hidden) sum = {};
-  if (answer.verdict == Verdict::Visible) sum.value = above_zero(sum.value, b);
+  std::optional<VisibilityAnswer> answer;
+  try {
+    answer = polygon_visibility(question);
+  } catch (const InvalidInput&) {
+    // Rounding has left a part before the other's plane without area.
+  }
+  if (answer && answer->verdict == Verdict::Hidden) sum = {};
+  if (answer && answer->verdict == Verdict::Visible)
+    sum.value = above_zero(sum.value, b);
   sum.value = std::max(sum.value, 0.0);
 }
 

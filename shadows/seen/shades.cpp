@@ -159,8 +159,9 @@ Shade ShadeMaker::of_part(const Blocker& blocker, int cut_point, int cut_line) c
 std::optional<Shade> ShadeMaker::of_solid(int object) const {
   const ViewScene& view = eye_->scene();
   const Scene& scene = view.scene();
-  bool any = false;
+  bool any = false, bent = false;
   for (const int f : scene.objects()[object].faces) {
+    bent |= !scene.facets()[scene.faces()[f].facet].planar;
     const int first = scene.facets()[scene.faces()[f].facet].faces.front();
     if (eye_->front(f) != eye_->front(first)) return std::nullopt;
     any |= eye_->front(f) == Sign::Positive;
@@ -183,7 +184,17 @@ std::optional<Shade> ShadeMaker::of_solid(int object) const {
       shade.further_lines.push_back(e);
     }
   }
+  // From very near to a facet that rounding has bent the outline is not convex.
+  if (bent && !is_convex(shade)) return std::nullopt;
   return shade;
+}
+
+bool ShadeMaker::is_convex(const Shade& shade) const {
+  return std::ranges::all_of(shade.sides, [&](const Shade::Side& side) {
+    return std::ranges::all_of(shade.sides, [&](const Shade::Side& other) {
+      return eye_->orient(side.ends[0], side.ends[1], other.ends[0]) != Sign::Negative;
+    });
+  });
 }
 
 std::vector<Shade> ShadeMaker::shades(const std::vector<Blocker>& blockers,

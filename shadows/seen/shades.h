@@ -66,6 +66,7 @@ class ShadeMaker {
   [[nodiscard]] Shade of_face(int face) const;
   [[nodiscard]] Shade of_part(const Blocker& blocker, int cut_point, int cut_line) const;
   [[nodiscard]] std::optional<Shade> of_solid(int object) const;
+  [[nodiscard]] bool is_convex(const Shade& shade) const;
 
   const EyeSpace* eye_;
   const SourceScene* source_;

@@ -324,13 +324,13 @@ void SourceView::view(const Line& line) {
     }
   }
   for (std::size_t i = 0; i < beside.size(); ++i) {
-    std::array<bool, 2> in_source, seen;
+    std::array<bool, 2> in_source, seen, blocked{};
     for (int side = 0; side < 2; ++side) {
       in_source[side] = beside[i].source[side] > 0;
       seen[side] = in_source[side] && beside[i].hidden[side] == 0;
     }
     if (ask_star_ && (seen[0] || seen[1])) {
-      const auto blocked = into_material(line.line, cuts, at[i], at[i + 1]);
+      blocked = into_material(line.line, cuts, at[i], at[i + 1]);
       for (int side = 0; side < 2; ++side) seen[side] = seen[side] && !blocked[side];
     }
     for (int side = 0; side < 2; ++side) {
@@ -341,7 +341,7 @@ void SourceView::view(const Line& line) {
     // A line of which no own shade ends here only happens to be seen in line.
     const int seen_side = seen[0] ? 0 : 1;
     const bool is_source_side = beside[i].own[seen_side] > 0 && !in_source[1 - seen_side];
-    const bool is_star_side = ask_star_ && line.shades.empty();
+    const bool is_star_side = blocked[1 - seen_side] && question_.star->bounds(line.line);
     if (beside[i].own[1 - seen_side] == 0 && !is_source_side && !is_star_side) continue;
     LinePiece piece{line.line, at[i], at[i + 1], {}, {}};
     piece.left.blocked = !seen[0];

@@ -823,6 +823,30 @@ TEST(PointViewCases, CornerOnASeam) {
   }
 }
 
+// Nor is an edge that is seen to pass the joint of two edges that only go straight on
+// there, whatever objects they are of: the left side of the sheet passes the joint of two
+// boxes' upper edges, or of a box's and of two sheets'.
+TEST(PointViewCases, EdgePassingAJoint) {
+  struct Passing {
+    const char* scene;
+    double z;
+    int t_vertices;  // on the sheet's sides: two edges behind each, or three from above
+  };
+  for (const auto& [name, z, t_vertices] :
+       {Passing{"before_a_joint", 0.75, 4}, {"before_a_joint_of_objects", 1.5, 6}}) {
+    const Case scene(name);
+    const PointView view = scene.from({0.5, -6, z});
+    for (const double x : {0.5 - kSmall, 0.5, 0.5 + kSmall}) {
+      const PointView beside = scene.from({x, -6, z});
+      EXPECT_EQ(counts(beside).t_vertices, t_vertices) << name << x;
+      EXPECT_EQ(counts(beside).accident_vertices, 0) << name << x;
+      EXPECT_TRUE(beside.accidents.empty()) << name << x;
+      EXPECT_TRUE(beside.general) << name << x;
+      EXPECT_EQ(beside.structure, view.structure) << name << x;
+    }
+  }
+}
+
 // What no eye near by sees makes no accident.
 TEST(PointViewCases, HiddenAccident) {
   const Case scene("hidden_three_edges");

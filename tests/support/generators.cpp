@@ -627,6 +627,23 @@ PolygonSoup street_city(std::uint64_t seed, int polygon_count,
   return soup;
 }
 
+PolygonSoup lit_city(int polygon_count, bool square) {
+  PolygonSoup soup = street_city(1, polygon_count, {.square = square});
+  Point low = soup.vertices[0], high = low;
+  for (const Point& p : soup.vertices) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  const double half = 0.05 * std::min(high.x() - low.x(), high.y() - low.y());
+  const double x = 0.5 * (low.x() + high.x()), y = 0.5 * (low.y() + high.y());
+  const int v = static_cast<int>(soup.vertices.size());
+  for (const auto& [dx, dy] : {std::pair(-1, -1), {-1, 1}, {1, 1}, {1, -1}})
+    soup.vertices.emplace_back(x + dx * half, y + dy * half, 2 * high.z());
+  soup.groups.push_back({"light", {static_cast<int>(soup.polygons.size())}});
+  soup.polygons.push_back({v, v + 1, v + 2, v + 3});
+  return soup;
+}
+
 PolygonSoup triangle_soup(std::uint64_t seed, int count) {
   Random random(seed);
   const auto point = [&](double size) {

@@ -150,6 +150,11 @@ struct StreetCityOptions {
 [[nodiscard]] PolygonSoup street_city(std::uint64_t seed, int polygon_count,
                                       const StreetCityOptions& options = {});
 
+/// A street or square city of seed 1 with one more polygon, "light": a square that shines
+/// down, a tenth of the slab wide, over its middle, at twice the height of the highest
+/// roof.
+[[nodiscard]] PolygonSoup lit_city(int polygon_count, bool square);
+
 /// `count` triangles scattered in the cube [-1, 1]^3, which intersect at will; about as
 /// many are met by a line whatever the count.  No groups.
 [[nodiscard]] PolygonSoup triangle_soup(std::uint64_t seed, int count);

@@ -48,9 +48,11 @@ std::optional<std::pair<Cone, Vec3>> face_in_picture(const Lens& lens,
   return std::pair{cone_of(std::move(rays)).value(), Rational(1 / det) * sum};
 }
 
-std::vector<Layer> layers_of(const Scene& scene, const Lens& lens) {
+std::vector<Layer> layers_of(const Scene& scene, const Lens& lens,
+                             const std::optional<Vec3>& point) {
   std::map<std::array<Rational, 3>, Layer> layers;
   for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
+    if (point && !face_holds(scene, f, *point)) continue;
     const auto seen = face_in_picture(lens, corners_of(scene, f));
     if (!seen) continue;
     Layer& layer = layers[seen->second];
@@ -215,8 +217,8 @@ double Lens::length() const {
   return std::sqrt(static_cast<double>(dot(v, v))) * static_cast<double>(longest);
 }
 
-Picture picture(const Scene& scene, const Lens& lens) {
-  const std::vector<Layer> layers = layers_of(scene, lens);
+Picture picture(const Scene& scene, const Lens& lens, const std::optional<Vec3>& point) {
+  const std::vector<Layer> layers = layers_of(scene, lens, point);
   const std::vector<Cone> all = everything(scene, lens);
   const std::vector<Cone> blocked = blocked_rays(scene, lens);
   Picture result;

@@ -55,7 +55,9 @@ struct Picture {
   std::vector<char> front;  ///< per face: the eye is in front of its plane
 };
 
-[[nodiscard]] Picture picture(const Scene& scene, const Lens& lens);
+/// Of all faces, or of those alone that hold a point.
+[[nodiscard]] Picture picture(const Scene& scene, const Lens& lens,
+                              const std::optional<Vec3>& point = std::nullopt);
 
 /// Objects in whose material lies what comes right behind `origin` in direction `along`;
 /// nullopt if the ray meets an edge.

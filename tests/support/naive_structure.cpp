@@ -10,13 +10,6 @@ std::string text(const std::vector<int>& numbers) {
   for (const int n : numbers) result += std::to_string(n) + ",";
   return result;
 }
-std::string text(const NaiveLine& line) {
-  std::string result("e");
-  result += text(line.edges);
-  for (const auto& [f, g] : line.crossings)
-    result += std::string("x") + text(std::vector{f, g});
-  return result;
-}
 std::string joined(std::vector<std::string> parts) {
   std::ranges::sort(parts);
   std::string result;
@@ -30,18 +23,20 @@ std::string structure_of(const NaiveView& view) {
   std::vector<std::string> vertices, all;
   for (const NaiveVertex& v : view.vertices) {
     vertices.push_back(std::string("v") + std::to_string(static_cast<int>(v.kind)) + " " +
-                       std::to_string(v.corner) + text(v.near) + text(v.far));
+                       std::to_string(v.corner) + " " + v.near.in_space + " " +
+                       v.far.in_space);
   }
   // A touch is named by the edges that meet in it.
   std::vector<std::vector<std::string>> beside(view.regions.size()),
       meeting(vertices.size());
   for (const NaiveEdge& e : view.edges) {
-    for (const int v : e.ends) meeting[v].push_back(text(e.line));
+    for (const int v : e.ends) meeting[v].push_back(e.line.in_space);
   }
   for (std::size_t v = 0; v < vertices.size(); ++v) vertices[v] += joined(meeting[v]);
   for (const NaiveEdge& e : view.edges) {
-    std::string name = text(e.line) + " kinds";
-    for (const MapEdgeKind k : e.kinds) name += std::to_string(static_cast<int>(k));
+    // Not by its kind: of a line of several scene edges some may be of another object, or
+    // have one face, and which of them are seen is no matter.
+    std::string name = e.line.in_space;
     // Which end is the first one is chance.
     std::string one = vertices[e.ends[0]] + " to " + vertices[e.ends[1]] + " left " +
                       text(view.regions[e.left].facets) + " right " +

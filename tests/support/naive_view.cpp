@@ -29,6 +29,19 @@ SpaceLine space_line(const Ray& line, const Vec3& nearness) {
   return {line.exact(), nearness - Rational(nearness[k] / h[k]) * h};
 }
 
+/// The line through two points, the same for all pairs of its points.
+std::string text_of_line(const Vec3& p, const Vec3& q) {
+  const Vec3 way = q - p;
+  int k = 0;
+  while (way[k].sign() == 0) ++k;
+  const Vec3 d = Rational(1 / way[k]) * way, moment = cross(p, d);
+  std::string text;
+  for (const Rational& x : {d[0], d[1], d[2], moment[0], moment[1], moment[2]}) {
+    text += x.str() + ",";
+  }
+  return text;
+}
+
 /// A border between regions.
 struct Piece {
   Border at;
@@ -228,13 +241,12 @@ class MapMaker {
     }
   }
 
-  [[nodiscard]] std::optional<Vec3> nearness_at(int cell) const {
-    if (picture_.cells[cell].faces.empty()) return std::nullopt;
-    return picture_.cells[cell].nearness;
-  }
-
-  /// Where in space the border is.
-  void place(Piece& piece) const {
+  /// Where in space a border of a picture is.
+  static void place(Piece& piece, const std::vector<PictureCell>& cells) {
+    const auto nearness_at = [&](int cell) -> std::optional<Vec3> {
+      if (cells[cell].faces.empty()) return std::nullopt;
+      return cells[cell].nearness;
+    };
     const auto p = nearness_at(piece.at.plus), m = nearness_at(piece.at.minus);
     const Vec3 a = piece.at.begin.rational(), b = piece.at.end.rational();
     piece.meeting = p && m && dot(*p, a) == dot(*m, a) && dot(*p, b) == dot(*m, b);
@@ -362,7 +374,7 @@ class MapMaker {
       if (i.plus < 0 || i.minus < 0 || labels_[i.plus] == labels_[i.minus]) continue;
       if (labels_[i.plus][0] < 0 && labels_[i.minus][0] < 0) continue;
       Piece piece{i, {}, {}, false, {}, {}};
-      place(piece);
+      place(piece, picture_.cells);
       // Where the eye's own solid begins there may be no edge; such a map is not asked
       // for.
       if (labels_[i.plus][0] == -2 || labels_[i.minus][0] == -2) {
@@ -370,6 +382,8 @@ class MapMaker {
       } else {
         name(piece);
       }
+      piece.name.in_space = text_of_line(lens_.in_space(piece.at.begin, piece.nearness),
+                                         lens_.in_space(piece.at.end, piece.nearness));
       const int number = static_cast<int>(pieces_.size());
       pieces_.push_back(std::move(piece));
       around_[i.begin].push_back(number);
@@ -395,6 +409,7 @@ class MapMaker {
     line.crossings.insert(line.crossings.end(), more.crossings.begin(),
                           more.crossings.end());
     line.crossings = sorted_set(line.crossings);
+    line.in_space = more.in_space;
   }
 
   void add_to(NaiveEdge& edge, const Piece& piece) const {
@@ -444,6 +459,36 @@ class MapMaker {
     });
   }
 
+  /// How many ends of the border's two halves, or of the whole, lie on the ray.
+  static int ends_on(const Border& border, const Ray& ray) {
+    if (border.begin == ray || border.end == ray) return 1;
+    const Vec3 n = border.line.rational(), v = ray.rational();
+    if (dot(n, v).sign() != 0) return 0;
+    return dot(n, cross(border.begin.rational(), v)).sign() > 0 &&
+                   dot(n, cross(v, border.end.rational())).sign() > 0
+               ? 2
+               : 0;
+  }
+
+  /// In the picture of the faces alone that hold this point of the ray, all that is seen
+  /// to begin, end or pass there is one line that goes straight on.
+  [[nodiscard]] bool only_goes_straight_on(const Vec3& point, const Ray& ray) const {
+    const Picture there = picture(scene_, lens_, point);
+    std::vector<SpaceLine> lines;
+    for (const Border& i : borders(there.cells)) {
+      if (i.plus < 0 || i.minus < 0) continue;
+      // Of eyes on the scene, whose map is not asked for.
+      if (label_of(there.cells[i.plus])[0] < 0 && label_of(there.cells[i.minus])[0] < 0) {
+        continue;
+      }
+      if (label_of(there.cells[i.plus]) == label_of(there.cells[i.minus])) continue;
+      Piece piece{i, {}, {}, false, {}, {}};
+      place(piece, there.cells);
+      lines.insert(lines.end(), ends_on(i, ray), piece.line);
+    }
+    return lines.size() == 2 && lines[0] == lines[1];
+  }
+
   [[nodiscard]] NaiveVertex vertex(const Ray& ray, const std::vector<int>& pieces) const {
     const Vec3 v = ray.rational();
     std::map<Rational, std::vector<int>, std::greater<>> by_nearness;
@@ -468,14 +513,8 @@ class MapMaker {
     const bool straight =
         nearest.size() == 2 && pieces_[nearest[0]].line == pieces_[nearest[1]].line;
     if (by_nearness.size() == 2 && straight && farthest.size() == 1 &&
-        goes_through(pieces_[farthest[0]], ray)) {
+        only_goes_straight_on(lens_.in_space(ray, pieces_[farthest[0]].nearness), ray)) {
       result.kind = MapVertexKind::T;
-      const Vec3 far = lens_.in_space(ray, pieces_[farthest[0]].nearness);
-      const auto hidden = corners_.find(ray);
-      result.or_accident =
-          hidden != corners_.end() && std::ranges::any_of(hidden->second, [&](int p) {
-            return exact(scene_.point(p)) == far;
-          });
       for (const int p : nearest) add_to(result.near, pieces_[p].name);
       result.far = pieces_[farthest[0]].name;
     } else {

@@ -38,6 +38,8 @@ struct NaiveFacet {
 struct NaiveLine {
   std::vector<int> edges;
   std::vector<std::array<int, 2>> crossings;
+  /// The straight line itself in exact numbers, the same from everywhere.
+  std::string in_space;
   friend auto operator<=>(const NaiveLine&, const NaiveLine&) = default;
 };
 
@@ -45,9 +47,6 @@ struct NaiveVertex {
   MapVertexKind kind;
   int corner = -1;      ///< Corner only
   NaiveLine near, far;  ///< T only
-  /// T only: the far edge goes straight on where another ends, so that it may be read as
-  /// an accident.
-  bool or_accident = false;
   /// Corner only: no edge of the map ends there, so that it may be read as a touch.
   bool or_touch = false;
   /// The nearest point in space of the edges that meet here.

@@ -25,7 +25,7 @@ inline std::string file_contents(const std::filesystem::path& file) {
 }
 
 /// A fixture with an empty folder, removed with it, in which commands run.
-class Shell : public testing::Test {
+class Shell : public ::testing::Test {
  protected:
   Shell() {
     std::string pattern =

@@ -136,10 +136,10 @@ class Comparison {
     return rounded(v.in_space - share * eye_.at);
   }
 
-  [[nodiscard]] bool same_vertex(const MapVertex& v, const NaiveVertex& naive) const {
+  [[nodiscard]] bool same_vertex(const MapVertex& v, const NaiveVertex& naive,
+                                 bool to_the_letter = false) const {
     if (!near(v.at, in_picture(naive))) return false;
-    if (v.kind == MapVertexKind::Accident && naive.or_accident) return true;
-    if (v.kind == MapVertexKind::Touch && naive.or_touch) return true;
+    if (v.kind == MapVertexKind::Touch && naive.or_touch && !to_the_letter) return true;
     if (v.kind != naive.kind) return false;
     if (v.kind == MapVertexKind::Corner) return v.corner == naive.corner;
     if (v.kind != MapVertexKind::T) return true;
@@ -147,15 +147,22 @@ class Comparison {
   }
 
   void compare_vertices() {
-    std::vector<char> used(naive_.vertices.size(), 0);
-    for (const MapVertex& v : view_.vertices) {
-      bool found = false;
-      for (std::size_t k = 0; k < used.size() && !found; ++k) {
-        if (used[k] != 0 || !same_vertex(v, naive_.vertices[k])) continue;
-        used[k] = 1;
-        found = true;
+    std::vector<char> used(naive_.vertices.size(), 0), matched(view_.vertices.size(), 0);
+    // From far away many are seen in nearly one point: what is the same to the letter is
+    // matched first.
+    for (const bool to_the_letter : {true, false}) {
+      for (std::size_t i = 0; i < matched.size(); ++i) {
+        for (std::size_t k = 0; k < used.size() && matched[i] == 0; ++k) {
+          if (used[k] != 0) continue;
+          if (!same_vertex(view_.vertices[i], naive_.vertices[k], to_the_letter))
+            continue;
+          used[k] = matched[i] = 1;
+        }
       }
-      if (!found) {
+    }
+    for (std::size_t i = 0; i < matched.size(); ++i) {
+      const MapVertex& v = view_.vertices[i];
+      if (matched[i] == 0) {
         tell(std::string("vertex ") + name(v.kind) + " corner " +
              std::to_string(v.corner) + " near " + text(v.near) + " far " + text(v.far) +
              " at " + text(v.at) + ": the library's only");

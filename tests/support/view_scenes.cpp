@@ -4,26 +4,12 @@
 #include <cmath>
 
 #include "tests/support/add_box.h"
+#include "tests/support/add_polygons.h"
 #include "tests/support/generators.h"
 #include "tests/support/invariant_scenes.h"
 
 namespace sightline::testing {
 namespace {
-
-/// A group of polygons given by their corners.
-void add_polygons(PolygonSoup& soup, const std::string& name,
-                  const std::vector<std::vector<Point>>& polygons) {
-  PolygonSoup::Group group{.name = name, .faces = {}};
-  for (const std::vector<Point>& polygon : polygons) {
-    group.faces.push_back(static_cast<int>(soup.polygons.size()));
-    soup.polygons.emplace_back();
-    for (const Point& p : polygon) {
-      soup.polygons.back().push_back(static_cast<int>(soup.vertices.size()));
-      soup.vertices.push_back(p);
-    }
-  }
-  soup.groups.push_back(std::move(group));
-}
 
 /// A box whose fronts are inside.
 void add_room(PolygonSoup& soup, const char* name, const Point& low, const Point& high) {

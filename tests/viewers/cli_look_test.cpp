@@ -314,8 +314,8 @@ TEST_F(CliLook, RefusesWhatItCannotAnswerInOneLine) {
   expect_refused(kCube + " --direction 0,0/5,0", "--direction '0,0/5,0'");
   expect_refused(kCube + " --form 1,2,3", "--from");
   expect_refused(kCube + " --at " + file("none.json"), "none.json");
-  expect_refused(kCube + " --from 1,2,1e300", "--from 1,2,1e300");
-  expect_refused(kCube + " --from 1,2,1/" + std::string(99, '9'), "--from 1,2,1/9");
+  expect_refused(kCube + " --from 1,2,1e300", "--from '1,2,1e300': the eye");
+  expect_refused(kCube + " --from 1,2,1/" + std::string(99, '9'), "--from '1,2,1/9");
   expect_refused("missing.obj --from 1,2,3", "missing.obj");
 }
 
@@ -408,7 +408,7 @@ TEST_F(CliLook, RefusesPathsByTheElement) {
   refused(R"({"points": [[3, 3, 3], [1, 2]]})", "points[1]: expected three");
   refused(R"({"directions": [[3, 3, 3], [0, 0, 0]]})", "directions[1]: ");
   refused(R"({"directions": [[1, 2, 3], [-2, -4, -6]]})", "viewpoints 0 and 1");
-  refused(R"({"points": [[3, 3, 3], [1, 2, 1e300]]})", "the eye: ");
+  refused(R"({"points": [[3, 3, 3], [1, 2, 1e300]]})", "points[1]: the eye: ");
   const std::string good = file("good.json", R"({"points": [[3, 3, 3], [4, 4, 5]]})");
   refused_with(" --from 1,2,3 --path " + good, "--path: takes no --from");
   refused_with(" --csv " + file("p.csv") + " --path " + good, "--path: answers");

@@ -227,10 +227,35 @@ TEST_F(Cli, HelpNamesEveryOption) {
         "--near",         "--radius",  "--between-boxes", "--feature-size", "--budget",
         "--budget-mb",    "--list",    "--output",        "--saved",        "--seen-from",
         "--between-ends", "--crossed", "--json",          "--vtk",          "--threads",
-        "--precision"}) {
+        "--precision",    "--light"}) {
     EXPECT_NE(r.out.find(option), std::string::npos) << option;
   }
   EXPECT_EQ(run({"--version"}).status, 0);
+}
+
+TEST_F(Cli, EventsOfALight) {
+  const json j = answer({"skeleton", kCornell, "--light", "light", "--list"});
+  expect_common_keys(j, "skeleton");
+  EXPECT_TRUE(j.at("complete"));
+  const json& arcs = j.at("arc_list");
+  ASSERT_GT(arcs.size(), 100U);
+  std::set<std::string> kinds;
+  std::size_t pieces = 0;
+  for (const json& arc : arcs) {
+    kinds.insert(arc.at("kind"));
+    pieces += arc.at("pieces").size();
+    if (arc.at("curved")) {
+      EXPECT_EQ(arc.at("kind"), "EEE");
+    }
+    for (const json& piece : arc.at("pieces")) {
+      EXPECT_LT(piece.at("ends")[0].at("at"), piece.at("ends")[1].at("at"));
+    }
+  }
+  EXPECT_EQ(j.at("pieces"), pieces);
+  EXPECT_EQ(kinds, (std::set<std::string>{"EE", "EEE", "EV", "face"}));
+  EXPECT_EQ(j.at("outlines")[0].at("sides").size(), 4U);
+  expect_refused({"skeleton", kCornell, "--light", "nothing"}, "nothing");
+  expect_refused({"skeleton", kCornell, "--light", "light", "--kinds", "EV"}, "--light");
 }
 
 TEST_F(Cli, SkeletonCountsAndListAgree) {

@@ -65,6 +65,7 @@ COMMANDS = [
     "view room.obj --size 500,300 --png out/p.png",
     "view saved.json --size 300,200 --png out/p.png",
     "analyse cornell.obj -o out/report",
+    "analyse cornell.obj -o out/report --only look --from 1/3,2,7 --direction 1,2,3",
 ]
 FAULTS = ["kill", "term", "full", "device", "read-only", "closed", "memory"]
 ANSWERED, FAILED, BAD_INPUT, PARTIAL = range(4)

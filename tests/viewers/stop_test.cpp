@@ -72,6 +72,8 @@ class Stop : public test::Stopping {
         {"stab", input_ / "portals.json", "--list", "--vtk", vtk, "--json", out},
         {"stab", input_ / "portals.json", "--method", "conservative", "--json", out},
         {"analyse", city, "-o", folder_ / "report", "--json", out},
+        {"analyse", city, "-o", folder_ / "report", "--from", "-100,-100,150", "--only",
+         "look", "--json", out},
         {"view", city, "--png", folder_ / "out.png", "--size", "4000,4000"},
         {"transversals", input_ / "lines.json", "--list", "--vtk", vtk, "--json", out}};
   }

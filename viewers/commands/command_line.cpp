@@ -112,6 +112,10 @@ Scene read_scene(Session& session, const std::string& file, const std::string& f
   return Scene(std::move(soup), {}, session.with_grace());
 }
 
+std::string counted(std::size_t n, const char* one, const char* many) {
+  return fmt::format("{} {}", n, n == 1 ? one : many);
+}
+
 Meter::Meter()
     : start_(std::chrono::steady_clock::now()), counts_(thread_stage_counts()) {}
 

@@ -76,6 +76,9 @@ Command command_of(std::shared_ptr<Options> options,
 [[nodiscard]] Scene read_scene(Session& session, const std::string& file,
                                const std::string& format = {});
 
+/// "1 view", "2 views".
+[[nodiscard]] std::string counted(std::size_t n, const char* one, const char* many);
+
 /// Seconds since it was made, and predicate calls of this thread since then.
 class Meter {
  public:

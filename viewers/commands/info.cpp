@@ -10,10 +10,6 @@
 namespace sightline::viewers {
 namespace {
 
-std::string counted(std::size_t n, const char* singular, const char* plural) {
-  return fmt::format("{} {}", n, n == 1 ? singular : plural);
-}
-
 void print_summary(const Scene& scene, const Json& answer) {
   const auto [low, high] = scene.bounds();
   const MeshEdgeCounts& e = scene.mesh_edges();

@@ -7,9 +7,9 @@
 #include <iostream>
 
 #include "linespace/point_view.h"
-#include "linespace/work/parallel.h"
 #include "viewers/commands/command_line.h"
 #include "viewers/commands/outputs.h"
+#include "viewers/commands/views.h"
 #include "viewers/files/view_svg.h"
 #include "viewers/files/view_vtk.h"
 #include "viewers/json_text.h"
@@ -25,8 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct LookOptions : CommonOptions {
-  const CLI::App* command = nullptr;  ///< knows in which order the views were named
-  std::vector<std::string> from, direction, at;
+  ViewpointOptions viewpoints;
   std::string path;
   bool list = false;
   std::vector<double> window, up, towards;
@@ -44,40 +43,7 @@ struct LookOptions : CommonOptions {
   }
 };
 
-/// So many views of one run are drawn: their files are open all the time.
-constexpr std::size_t kMostDrawn = 100;
-
 // ---- what is asked --------------------------------------------------------------------
-
-/// In the order of the command line.
-std::vector<ViewQuestion> questions_of(Session& session, const LookOptions& options,
-                                       Outputs& outputs) {
-  std::vector<ViewQuestion> questions;
-  std::size_t from = 0, direction = 0, at = 0;
-  for (const CLI::Option* option : options.command->parse_order()) {
-    const std::string option_name = option->get_name();
-    if (option_name == "--from") {
-      questions.push_back(
-          view_question(Viewpoint::Kind::Eye, option_name, options.from.at(from++)));
-    } else if (option_name == "--direction") {
-      questions.push_back(view_question(Viewpoint::Kind::Direction, option_name,
-                                        options.direction.at(direction++)));
-    } else if (option_name == "--at") {
-      const std::string& file = options.at.at(at++);
-      outputs.protect(file);
-      for (ViewQuestion& question :
-           session.read([&] { return view_questions(JsonInput(file)); })) {
-        questions.push_back(std::move(question));
-      }
-    }
-  }
-  if (questions.empty()) {
-    throw UsageError(
-        "look: from where? name --from x,y,z, --direction x,y,z, --at FILE or --path "
-        "FILE");
-  }
-  return questions;
-}
 
 Point point_of(const std::vector<double>& numbers) {
   return {numbers[0], numbers[1], numbers[2]};
@@ -101,9 +67,9 @@ PictureWish wish_of(const LookOptions& options) {
 void check_pictures(const LookOptions& options,
                     const std::vector<ViewQuestion>& questions) {
   if (!options.draws()) return;
-  if (questions.size() > kMostDrawn) {
+  if (questions.size() > kMostDrawnViews) {
     throw UsageError(fmt::format("look: {} views; --svg, --png and --vtk take at most {}",
-                                 questions.size(), kMostDrawn));
+                                 questions.size(), kMostDrawnViews));
   }
   const bool eye = std::ranges::any_of(questions, [](const ViewQuestion& q) {
     return q.eye.kind == Viewpoint::Kind::Eye;
@@ -124,219 +90,126 @@ std::vector<OutputFile*> files_for(Outputs& outputs, const std::string& option,
                                    const std::string& file, std::size_t views) {
   std::vector<OutputFile*> files;
   if (file.empty()) return files;
-  const fs::path path(file);
   for (std::size_t i = 0; i < views; ++i) {
-    const fs::path numbered =
-        path.parent_path() /
-        fmt::format("{}{}{}", path.stem().string(), i, path.extension().string());
-    files.push_back(&outputs.add(option, views == 1 ? file : numbered.string()));
+    files.push_back(&outputs.add(option, name_of_view(file, i, views)));
   }
   return files;
 }
 
 // ---- the answer -----------------------------------------------------------------------
 
-/// What is kept of a view.
-struct Seen {
-  Json json;
-  std::string csv;
-  std::optional<PointView> view;  ///< where it is drawn
-  std::vector<FurtherLine> further;
+/// The files of one run that show something.
+struct PictureFiles {
+  std::vector<OutputFile*> svg, png;
 };
 
-/// All views, or as many of the first as the budget allowed.
+std::string told(const OutputFile& file) {
+  return file.target().empty() ? "standard output" : file.target().string();
+}
+
+/// Draws views as they come.  Files get their names only in finish(): a refusal of a
+/// later view leaves nothing written.
+class LookPictures {
+ public:
+  LookPictures(Session& session, const LookOptions& options, const Scene& scene,
+               PictureFiles files)
+      : session_(session),
+        options_(options),
+        scene_(scene),
+        wish_(wish_of(options)),
+        files_(std::move(files)) {}
+
+  /// Throws UsageError.
+  void add(const ViewQuestion& question, SeenView seen) {
+    if (!options_.draws()) return;
+    ViewDrawing drawing = drawing_of(scene_, question, seen, wish_);
+    if (!files_.svg.empty()) {
+      fill(*files_.svg[seen.number],
+           [&](const Request&) { return view_svg(scene_, seen.view, drawing); });
+    }
+    if (!files_.png.empty()) {
+      fill(*files_.png[seen.number], [&](const Request& request) {
+        return encode_png(view_image(drawing, seen.view, options_.pixels, request));
+      });
+    }
+    if (options_.vtk.empty()) return;
+    views_.push_back(std::move(seen.view));
+    drawings_.push_back(std::move(drawing));
+  }
+
+  void finish() {
+    for (OutputFile* file : full_) file->commit();
+    if (options_.vtk.empty()) return;
+    std::vector<ViewAndDrawing> drawn;
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      drawn.push_back({&views_[i], &drawings_[i]});
+    }
+    session_.write("VTK files", [&](const Request& request) {
+      write_vtk_views(options_.vtk, scene_, drawn, request);
+    });
+  }
+
+ private:
+  void fill(OutputFile& file, const std::function<std::string(const Request&)>& bytes) {
+    session_.write(told(file), [&](const Request& request) {
+      file.stream() << bytes(request);
+      full_.push_back(&file);
+    });
+  }
+
+  Session& session_;
+  const LookOptions& options_;
+  const Scene& scene_;
+  PictureWish wish_;
+  PictureFiles files_;
+  std::vector<OutputFile*> full_;
+  // For VTK files, which are written all at once.
+  std::vector<PointView> views_;
+  std::vector<ViewDrawing> drawings_;
+};
+
+/// What is kept of all views.
 struct AllSeen {
-  std::vector<Seen> views;
+  Json views = Json::array();
+  std::string rows;
   StageCounts predicates;
 };
 
-PointView view_of(const PointViewIndex& index, const ViewQuestion& question,
-                  const Request& request) {
-  try {
-    return index.view(question.eye, request);
-  } catch (const InvalidInput& refusal) {
-    throw InvalidInput(fmt::format("{}: {}", question.where, refusal.what()));
-  }
-}
-
-AllSeen see(Session& session, const LookOptions& options, const Scene& scene,
-            const std::vector<ViewQuestion>& questions) {
+AllSeen see_all(Session& session, const LookOptions& options, const Scene& scene,
+                const std::vector<ViewQuestion>& questions, LookPictures& pictures) {
   Request request = session.with_grace();
   request.precision = options.precision;
   request.threads = options.threads;
   const PointViewIndex index(scene, request);
   session.limit(request);
   session.begin("views");
-  // Several views share the threads, and progress counts them; a single one tells its
-  // own.
-  Request of_one = request;
-  if (questions.size() > 1) {
-    of_one.progress = nullptr;
-    of_one.threads = 1;
-  }
+  const ViewWish wish{.map = options.list,
+                      .rows = !options.csv.empty(),
+                      .seams = options.draws() && options.seams,
+                      .hidden = options.draws() && options.hidden};
   AllSeen all;
-  const auto step = [&](int&, std::size_t i) {
-    PointView view = view_of(index, questions[i], of_one);
-    Seen seen{view_json(scene, questions[i], view, options.list), {}, {}, {}};
-    if (options.draws() && (options.seams || options.hidden)) {
-      seen.further =
-          index.further_lines(questions[i].eye, options.seams, options.hidden, of_one);
-    }
-    if (!options.csv.empty()) seen.csv = view_csv(scene, i, view);
-    if (options.draws()) seen.view = std::move(view);
-    return seen;
-  };
-  // The workers need nothing of their own.
-  internal::for_each_parallel(
-      questions.size(), request, internal::Deadline(request), "views", all.predicates,
-      [] { return std::optional<int>(0); }, step,
-      [&](std::size_t, Seen seen) {
-        all.views.push_back(std::move(seen));
-        return true;
-      });
-  return all;
-}
-
-std::string counted(std::size_t n, const char* one, const char* many) {
-  return fmt::format("{} {}", n, n == 1 ? one : many);
-}
-
-void print_facets(const Json& view) {
-  constexpr std::size_t kShown = 12;
-  std::vector<const Json*> facets;
-  const char* measure = view.contains("from") ? "solid_angle" : "area";
-  for (const Json& facet : view["facets"]) facets.push_back(&facet);
-  std::ranges::stable_sort(facets, [&](const Json* a, const Json* b) {
-    return (*a)[measure].get<double>() > (*b)[measure].get<double>();
+  all.predicates = see(scene, index, questions, wish, request, [&](SeenView seen) {
+    all.views.push_back(std::move(seen.json));
+    all.rows += seen.rows;
+    pictures.add(questions[seen.number], std::move(seen));
   });
-  for (std::size_t i = 0; i < std::min(kShown, facets.size()); ++i) {
-    const Json& f = *facets[i];
-    std::cout << fmt::format("    facet {} of {}, its {}: {:.6g}{} in {}\n",
-                             f["facet"].get<int>(),
-                             escaped_bytes(f["object"].get<std::string>()),
-                             f["front"].get<bool>() ? "front" : "back",
-                             f[measure].get<double>(), view.contains("from") ? " sr" : "",
-                             counted(f["pieces"].get<int>(), "piece", "pieces"));
-  }
-  if (facets.size() > kShown) {
-    std::cout << fmt::format("    and {} more that are seen (--json lists them)\n",
-                             facets.size() - kShown);
-  }
-}
-
-void print_view(const ViewQuestion& question, const Json& view) {
-  if (view.is_null()) {
-    std::cout << fmt::format("  {}: not done\n", question.where);
-    return;
-  }
-  const auto n = [&](const char* key) { return view[key].get<std::size_t>(); };
-  const bool from = view.contains("from");
-  std::cout << fmt::format(
-      "  {} {}{}: {}{}\n    {} seen; map: {} ({} T, {} touch, {} accident), {}, {} ({} "
-      "background), {}, {}\n",
-      from ? "from" : "direction", fmt::join(question.asked, ","),
-      from ? fmt::format(", eye {}", view["eye"].get<std::string>()) : "",
-      view["general"].get<bool>() ? "general" : "not general",
-      view["accidents"].empty() ? ""
-                                : fmt::format(" ({})", counted(view["accidents"].size(),
-                                                               "accident", "accidents")),
-      counted(view["facets"].size(), "facet", "facets"),
-      counted(n("corners") + n("t_vertices") + n("touches") + n("accident_vertices"),
-              "vertex", "vertices"),
-      n("t_vertices"), n("touches"), n("accident_vertices"),
-      counted(n("edges"), "edge", "edges"), counted(n("regions"), "region", "regions"),
-      n("background_pieces"), counted(n("components"), "component", "components"),
-      counted(n("seams"), "seam", "seams"));
-  print_facets(view);
+  return all;
 }
 
 void print_summary(const LookOptions& options, const std::vector<ViewQuestion>& questions,
                    const Json& answer) {
-  constexpr std::size_t kShown = 20;
   const Json& views = answer["views"];
   std::cout << fmt::format("{}: {}{}\n", options.scene,
                            counted(views.size(), "view", "views"),
                            answer["complete"].get<bool>() ? "" : ", INCOMPLETE");
-  for (std::size_t i = 0; i < std::min(kShown, views.size()); ++i) {
-    print_view(questions[i], views[i]);
-  }
-  if (views.size() > kShown) {
-    std::cout << fmt::format("  and {} more views (--json lists them)\n",
-                             views.size() - kShown);
-  }
+  print_views(questions, views);
   std::cout << fmt::format("  {:.3f} s\n", answer["seconds"].get<double>());
-}
-
-// ---- files ----------------------------------------------------------------------------
-
-/// The files of one run that show something.
-struct PictureFiles {
-  std::vector<OutputFile*> svg, png;
-  OutputFile* csv = nullptr;
-};
-
-std::vector<ViewDrawing> drawings_of(const LookOptions& options, const Scene& scene,
-                                     const std::vector<ViewQuestion>& questions,
-                                     const AllSeen& all) {
-  std::vector<ViewDrawing> drawings;
-  if (!options.draws()) return drawings;
-  const PictureWish wish = wish_of(options);
-  for (std::size_t i = 0; i < all.views.size(); ++i) {
-    try {
-      drawings.push_back(
-          view_drawing(scene, *all.views[i].view, wish, all.views[i].further));
-    } catch (const InvalidInput& refusal) {
-      throw UsageError(fmt::format("{}: {}", questions[i].where, refusal.what()));
-    }
-  }
-  return drawings;
-}
-
-void write_bytes(OutputFile& file, const std::string& bytes) {
-  file.stream() << bytes;
-  file.commit();
-}
-
-std::string told(const OutputFile& file) {
-  return file.target().empty() ? "standard output" : file.target().string();
-}
-
-void write_pictures(Session& session, const LookOptions& options, const Scene& scene,
-                    const AllSeen& all, const std::vector<ViewDrawing>& drawings,
-                    const PictureFiles& files) {
-  std::vector<ViewAndDrawing> drawn;
-  for (std::size_t i = 0; i < drawings.size(); ++i) {
-    const PointView& view = *all.views[i].view;
-    drawn.push_back({&view, &drawings[i]});
-    if (!files.svg.empty()) {
-      session.write(told(*files.svg[i]), [&](const Request&) {
-        write_bytes(*files.svg[i], view_svg(scene, view, drawings[i]));
-      });
-    }
-    if (!files.png.empty()) {
-      session.write(told(*files.png[i]), [&](const Request& request) {
-        write_bytes(*files.png[i],
-                    encode_png(view_image(drawings[i], view, options.pixels, request)));
-      });
-    }
-  }
-  if (!options.vtk.empty()) {
-    session.write("VTK files", [&](const Request& request) {
-      write_vtk_views(options.vtk, scene, drawn, request);
-    });
-  }
-}
-
-void write_csv(OutputFile& file, const AllSeen& all) {
-  file.stream() << kViewCsvHead;
-  for (const Seen& seen : all.views) file.stream() << seen.csv;
-  file.commit();
 }
 
 // ---- along a path ---------------------------------------------------------------------
 
 void check_alone(const LookOptions& options) {
-  if (!options.from.empty() || !options.direction.empty() || !options.at.empty()) {
+  if (!options.viewpoints.empty()) {
     throw UsageError("--path: takes no --from, --direction or --at beside it");
   }
   if (options.precision != Precision::Exact) {
@@ -423,54 +296,52 @@ ExitStatus run(Session& session, const LookOptions& options) {
   if (!options.path.empty()) return run_path(session, options);
   // 1. The outputs and the questions, then the scene.
   Outputs outputs(options);
-  PictureFiles files;
-  if (!options.csv.empty()) files.csv = &outputs.add("--csv", options.csv);
-  const std::vector<ViewQuestion> questions = questions_of(session, options, outputs);
+  OutputFile* const csv =
+      options.csv.empty() ? nullptr : &outputs.add("--csv", options.csv);
+  const std::vector<ViewQuestion> questions =
+      questions_of(session, options.viewpoints, outputs);
+  if (questions.empty()) {
+    throw UsageError(
+        "look: from where? name --from x,y,z, --direction x,y,z, --at FILE or --path "
+        "FILE");
+  }
   (void)wish_of(options);  // refuses what makes no picture
   check_pictures(options, questions);
-  files.svg = files_for(outputs, "--svg", options.svg, questions.size());
-  files.png = files_for(outputs, "--png", options.png, questions.size());
+  PictureFiles files{files_for(outputs, "--svg", options.svg, questions.size()),
+                     files_for(outputs, "--png", options.png, questions.size())};
   const Meter meter;
   const PrecisionScope precision(options.precision);
   const Scene scene = read_scene(session, options.scene, options.format);
 
-  // 2. The views, and what is drawn of them.
-  AllSeen all = see(session, options, scene, questions);
-  const std::vector<ViewDrawing> drawings = drawings_of(options, scene, questions, all);
+  // 2. The views, drawn as they come.
+  LookPictures pictures(session, options, scene, std::move(files));
+  AllSeen all = see_all(session, options, scene, questions, pictures);
   const bool complete = all.views.size() == questions.size();
 
   // 3. The files; the answer comes last.
-  write_pictures(session, options, scene, all, drawings, files);
-  if (files.csv != nullptr) write_csv(*files.csv, all);
+  pictures.finish();
+  if (csv != nullptr) {
+    csv->stream() << kViewCsvHead << all.rows;
+    csv->commit();
+  }
   Json answer = answer_head("look", scene, complete && session.unwritten().empty(),
                             {session.seconds(), meter.predicates() + all.predicates});
-  Json& views = answer["views"] = Json::array();
-  for (Seen& seen : all.views) views.push_back(std::move(seen.json));
-  while (views.size() < questions.size()) views.push_back(nullptr);
+  answer["views"] = std::move(all.views);
+  while (answer["views"].size() < questions.size()) answer["views"].push_back(nullptr);
   outputs.write_answer(answer);
   if (options.may_print()) print_summary(options, questions, answer);
   return session.end(complete);
 }
 
-CLI::Option* add_repeated(CLI::App& command, const std::string& name,
-                          std::vector<std::string>& values, const char* help) {
-  return command.add_option(name, values, help)->allow_extra_args(false);
-}
-
 /// From where.
 void add_view_options(CLI::App& command, LookOptions& options) {
-  add_repeated(command, "--from", options.from,
-               "an eye, x,y,z in scene units; numbers or fractions p/q, as in 1/3,0,2; "
-               "repeatable, as --direction and --at are, in any mixture; answered in the "
-               "order given")
-      ->type_name("x,y,z");
-  add_repeated(command, "--direction", options.direction,
-               "an eye infinitely far away in this direction, so that sight runs against "
-               "it: an orthographic view; 0,0,1 is a plan; its length says nothing")
-      ->type_name("x,y,z");
-  add_repeated(command, "--at", options.at,
-               R"(JSON: {"views": [{"from": [x,y,z]} | {"direction": [x,y,z]}, ...]}, )"
-               "numbers or strings \"p/q\"")
+  add_viewpoint_options(command, options.viewpoints);
+  command
+      .add_option(
+          "--at", options.viewpoints.at,
+          R"(JSON: {"views": [{"from": [x,y,z]} | {"direction": [x,y,z]}, ...]}, )"
+          "numbers or strings \"p/q\"; repeatable, beside --from and --direction")
+      ->allow_extra_args(false)
       ->type_name("FILE");
   command
       .add_option("--path", options.path,
@@ -556,7 +427,6 @@ Command add_look_command(CLI::App& app) {
   CLI::App* command = app.add_subcommand(
       "look",
       "the exact view from points and directions: what is seen of every facet and edge");
-  options->command = command;
   add_scene_argument(*command, *options);
   add_view_options(*command, *options);
   add_window_options(*command, *options);

@@ -62,8 +62,8 @@ double Session::seconds() const {
 
 bool Session::stopped() const { return interrupted_ || seconds() > budget_; }
 
-void Session::limit(Request& request) {
-  request.budget_seconds = budget_ - seconds();
+void Session::limit(Request& request, int shares) {
+  request.budget_seconds = (budget_ - seconds()) / shares;
   request.stop = stop_.get_token();
   request.progress = [this](std::string_view stage, double share) { tell(stage, share); };
 }
@@ -111,15 +111,23 @@ void Session::clear_terminal_line() {
   shown_ = false;
 }
 
-std::string Session::last_line() const {
-  std::string line = "sightline: ";
-  line +=
+std::string Session::what_stopped() const {
+  if (!stopped()) {
+    return fmt::format("the share of {} in the budget of {:g} s ended",
+                       listed(shares_ended_), +budget_);
+  }
+  std::string what =
       interrupted_ ? "interrupted" : fmt::format("the budget of {:g} s ended", +budget_);
   if (!stopped_in_.empty()) {
-    line += " in stage: " + stopped_in_;
+    what += " in stage: " + stopped_in_;
   } else if (!stage_.empty()) {
-    line += fmt::format(" in stage: {}, {:.0f} % done", stage_, std::floor(100 * share_));
+    what += fmt::format(" in stage: {}, {:.0f} % done", stage_, std::floor(100 * share_));
   }
+  return what;
+}
+
+std::string Session::last_line() const {
+  std::string line = "sightline: " + what_stopped();
   const std::vector<std::string> written = written_files();
   line += written.empty() ? "; nothing is written" : "; written: " + listed(written);
   if (!unwritten_.empty()) line += "; not written: " + listed(unwritten_);
@@ -132,7 +140,8 @@ ExitStatus Session::end(bool complete) {
   const std::scoped_lock lock(mutex_);
   status_ = complete && unwritten_.empty() ? kAnswered : kPartial;
   clear_terminal_line();
-  if (*status_ == kPartial && stopped()) std::fputs(last_line().c_str(), stderr);
+  const bool ended = stopped() || !shares_ended_.empty();
+  if (*status_ == kPartial && ended) std::fputs(last_line().c_str(), stderr);
   return *status_;
 }
 

@@ -54,8 +54,10 @@ class Session {
   [[nodiscard]] bool stopped() const;
 
   /// Work under this request ends with the budget or the interrupt and tells its progress
-  /// here.
-  void limit(Request& request);
+  /// here.  Of what is left of the budget it has one of so many equal shares.
+  void limit(Request& request, int shares = 1);
+  /// This part of the work used its share up and is not done.
+  void share_ended(const std::string& part) { shares_ended_.push_back(part); }
   /// A request of that kind.
   [[nodiscard]] Request limited();
 
@@ -93,8 +95,8 @@ class Session {
   [[nodiscard]] const std::vector<std::string>& unwritten() const { return unwritten_; }
 
   /// The answer is out.  Returns the status that the program is to end with: kAnswered
-  /// when `complete` and nothing is unwritten.  After a stop it says on standard error
-  /// what stopped it and what is written, in one line.
+  /// when `complete` and nothing is unwritten.  After a stop, and where a share ended, it
+  /// says on standard error what stopped it and what is written, in one line.
   ExitStatus end(bool complete);
   /// The same where the work was stopped before there was an answer.
   ExitStatus end_without_answer() { return end(false); }
@@ -103,6 +105,7 @@ class Session {
   void read_with_grace(const std::function<void()>& read);
   void watch(const std::stop_token& done);
   [[nodiscard]] std::string last_line() const;
+  [[nodiscard]] std::string what_stopped() const;
   void clear_terminal_line();
   [[noreturn]] void end_now();
 
@@ -110,7 +113,7 @@ class Session {
   std::atomic<double> budget_;
   std::atomic<bool> interrupted_{false};
   std::stop_source stop_, give_up_;
-  std::vector<std::string> unwritten_;
+  std::vector<std::string> unwritten_, shares_ended_;
 
   mutable std::mutex mutex_;  // of what follows
   std::string stage_;

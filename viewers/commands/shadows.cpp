@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <charconv>
 #include <iostream>
 #include <optional>
@@ -10,9 +11,12 @@
 #include "linespace/work/parallel.h"
 #include "shadows/backprojection.h"
 #include "shadows/lit_picture.h"
+#include "shadows/shadow_mesh.h"
 #include "viewers/commands/command_line.h"
 #include "viewers/commands/outputs.h"
+#include "viewers/json_text.h"
 #include "viewers/pictures/lit_image.h"
+#include "viewers/queries/mesh_answer.h"
 #include "viewers/queries/shadow_answer.h"
 #include "viewers/queries/shadow_questions.h"
 
@@ -20,9 +24,9 @@ namespace sightline::viewers {
 namespace {
 
 struct ShadowOptions : CommonOptions {
-  std::vector<std::string> light, without, both_sides;
+  std::vector<std::string> light, without, both_sides, receivers;
   std::string at, csv, png;
-  bool structure = false, gradient = false;
+  bool structure = false, gradient = false, list = false;
   std::vector<double> eye, towards, up{0, 0, 1};
   double fov = 60;  ///< degrees
   std::string size = "640x480";
@@ -129,27 +133,58 @@ void write_picture(Session& session, const ShadowOptions& options, const Scene& 
   });
 }
 
-void print_summary(const ShadowOptions& options, const AnsweredPoints& all,
-                   std::size_t asked, double seconds) {
+// ---- receivers ------------------------------------------------------------------------
+
+/// Those named, or all objects that are no part of the source; those of both sides twice.
+std::vector<Receiver> receivers_of(const ShadowOptions& options, const Scene& scene,
+                                   const LightSource& light) {
+  std::vector<std::string> names = options.receivers;
+  if (names.empty()) {
+    for (const Object& object : scene.objects()) {
+      const bool shines = std::ranges::any_of(object.faces, [&](int f) {
+        return std::ranges::binary_search(light.faces, f);
+      });
+      if (!shines) names.push_back(object.name);
+    }
+  }
+  std::vector<Receiver> receivers;
+  for (const std::string& name : names) {
+    Receiver front{name, scene.faces_named(name), true};
+    Receiver back{name + "/back", front.faces, false};
+    receivers.push_back(std::move(front));
+    if (std::ranges::find(options.both_sides, name) != options.both_sides.end())
+      receivers.push_back(std::move(back));
+  }
+  return receivers;
+}
+
+void print_receivers(const Shadows& shadows) {
+  for (const ReceiverShadows& r : shadows.receivers) {
+    std::size_t edges = 0, faces = 0;
+    for (const ShadowMesh& mesh : r.meshes) {
+      edges += mesh.edges.size();
+      faces += mesh.faces.size();
+    }
+    std::cout << fmt::format(
+        "  {}: area {:.6g}: lit {:.6g}, penumbra {:.6g}, umbra {:.6g} in {} (away "
+        "{:.6g}); mesh of {} faces, {} edges\n",
+        escaped_bytes(r.name), r.area, r.lit_area, r.penumbra_area, r.umbra_area,
+        r.umbra_components, r.away_area, faces, edges);
+  }
+}
+
+void print_points(const AnsweredPoints& all) {
   std::array<std::size_t, 3> counts{};
   for (const AnsweredPoint& point : all.points) ++counts[static_cast<int>(point.shadow)];
-  std::cout << fmt::format(
-      "{}: {} {}{}\n  {} lit, {} in penumbra, {} in umbra\n  {:.3f} s\n", options.scene,
-      all.points.size(), all.points.size() == 1 ? "point" : "points",
-      all.points.size() < asked ? ", INCOMPLETE" : "",
-      counts[static_cast<int>(ShadowClass::Lit)],
-      counts[static_cast<int>(ShadowClass::Penumbra)],
-      counts[static_cast<int>(ShadowClass::Umbra)], seconds);
+  std::cout << fmt::format("  {} {}: {} lit, {} in penumbra, {} in umbra\n",
+                           all.points.size(), all.points.size() == 1 ? "point" : "points",
+                           counts[static_cast<int>(ShadowClass::Lit)],
+                           counts[static_cast<int>(ShadowClass::Penumbra)],
+                           counts[static_cast<int>(ShadowClass::Umbra)]);
 }
 
 ExitStatus run(Session& session, const ShadowOptions& options) {
   // 1. The outputs, the scene, the light and the points.
-  if (options.at.empty() && options.png.empty()) {
-    throw UsageError(
-        "shadows: what is asked? name points, --at FILE, or a picture, --png FILE");
-  }
-  if (options.at.empty() && !options.csv.empty())
-    throw UsageError("--csv: is a table of the points that --at names");
   std::optional<PictureCamera> camera;
   if (!options.png.empty()) camera = camera_of(options);
   Outputs outputs(options);
@@ -171,12 +206,23 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
   // 2. What they see, and what a camera sees.
   const BackprojectionIndex index(scene, light, request_of(session, options));
   AnsweredPoints all = ask(session, options, index, questions);
-  const bool complete = all.points.size() == questions.size();
+  const bool asks_receivers =
+      !options.receivers.empty() || (options.at.empty() && options.png.empty());
+  Shadows shadows;
+  if (asks_receivers) {
+    Request request = request_of(session, options);
+    session.limit(request);
+    shadows = find_shadows(scene, light, receivers_of(options, scene, light), request);
+  }
+  const bool complete = all.points.size() == questions.size() && shadows.complete();
   if (png != nullptr) write_picture(session, options, scene, index, light, *camera, *png);
 
   // 3. The files; the answer comes last.
   if (csv != nullptr) {
-    csv->stream() << kShadowCsvHead;
+    csv->stream() << (options.at.empty() ? kReceiverCsvHead : kShadowCsvHead);
+    if (options.at.empty()) {
+      for (const ReceiverShadows& r : shadows.receivers) csv->stream() << receiver_csv(r);
+    }
     for (const AnsweredPoint& point : all.points) csv->stream() << point.csv;
     csv->commit();
   }
@@ -187,9 +233,14 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
     for (AnsweredPoint& point : all.points) points.push_back(std::move(point.json));
     while (points.size() < questions.size()) points.push_back(nullptr);
   }
+  if (asks_receivers) add_shadows(answer, shadows, options.list);
   outputs.write_answer(answer);
-  if (options.may_print())
-    print_summary(options, all, questions.size(), session.seconds());
+  if (options.may_print()) {
+    std::cout << fmt::format("{}{}\n", options.scene, complete ? "" : ": INCOMPLETE");
+    if (!options.at.empty()) print_points(all);
+    if (asks_receivers) print_receivers(shadows);
+    std::cout << fmt::format("  {:.3f} s\n", session.seconds());
+  }
   return session.end(complete);
 }
 
@@ -271,10 +322,19 @@ Command add_shadows_command(CLI::App& app) {
                     "\"seen\", its corners");
   command->add_flag("--gradient", options->gradient,
                     "add \"gradient\", of the form factor with the point");
+  add_names(*command, "--receivers", options->receivers,
+            "faces on which lit region, penumbra and umbra are found, with the mesh of "
+            "curves along which the view of the source changes (default, without --at "
+            "and --png: all groups but the source's)");
+  command->add_flag("--list", options->list,
+                    "add \"facets\" to each receiver: the mesh's vertices, edges and "
+                    "faces; and \"structures\"");
   command
-      ->add_option("--csv", options->csv,
-                   "a table with a line a point: point (from 0), x, y, z, class, visible "
-                   "fraction, form factor")
+      ->add_option(
+          "--csv", options->csv,
+          "a table with a line a point: point (from 0), x, y, z, class, visible "
+          "fraction, form factor; without --at with a line a receiver: areas and "
+          "counts")
       ->type_name("FILE");
   add_picture_options(*command, *options);
   add_common_options(*command, *options);
@@ -282,6 +342,7 @@ Command add_shadows_command(CLI::App& app) {
       "What hides, and what does not: docs/shadows.md.  Irradiance is the form factor "
       "times\nthe source's radiosity.\n"
       "Examples:\n"
+      "  sightline shadows room.obj --light lamp_shade --receivers floor,table_top\n"
       "  sightline shadows room.obj --light lamp_shade --at points.txt --json -\n"
       "  sightline shadows room.obj --light lamp_shade --png room.png --eye 5,2,4 "
       "--towards 3,1,2 --up 0,1,0\n"

@@ -10,6 +10,7 @@
 #include "skeleton/build.h"
 #include "viewers/commands/command_line.h"
 #include "viewers/commands/outputs.h"
+#include "viewers/commands/skeleton_light.h"
 #include "viewers/skeleton_file.h"
 #include "viewers/skeleton_queries.h"
 #include "viewers/vtk_export.h"
@@ -22,6 +23,7 @@ struct SkeletonOptions : CommonOptions {
   std::vector<std::string> kinds{"EV", "EEE", "FF"};
   std::vector<std::string> between;
   std::string through;
+  std::vector<std::string> light;
   std::size_t budget_bytes = std::numeric_limits<std::size_t>::max();
   std::vector<double> region;
   double perturb = 0;
@@ -281,6 +283,7 @@ Scene scene_of(Session& session, const SkeletonOptions& options) {
 void check_groups(const SkeletonOptions& options, const Scene& scene) {
   std::vector<std::string> names = options.between;
   if (!options.through.empty()) names.push_back(options.through);
+  names.insert(names.end(), options.light.begin(), options.light.end());
   for (const std::string& name : names) (void)scene.faces_named(name);
   std::vector<std::string> ends = options.between_ends;
   if (!options.seen_from.empty()) ends.push_back(options.seen_from);
@@ -349,6 +352,10 @@ ExitStatus run(Session& session, const SkeletonOptions& options) {
   const Scene scene = scene_of(session, options);
   check_groups(options, scene);
   const StageCounts loading = meter.predicates();
+  if (!options.light.empty()) {
+    return run_light(session, options, options.light, options.list, scene, loading,
+                     outputs);
+  }
 
   // 2. The skeleton, and what is asked of it.
   const Made made = made_skeleton(session, options, scene);
@@ -428,6 +435,27 @@ void add_group_options(CLI::App& command, SkeletonOptions& options) {
           "or with lines that end on it, EEE arcs with an edge on it, FF with a "
           "face of it")
       ->type_name("GROUP");
+}
+
+/// The option that asks for a source's events instead, and excludes those that it does
+/// not obey.
+void add_light_option(CLI::App& command, SkeletonOptions& options) {
+  CLI::Option* const light =
+      command
+          .add_option("--light", options.light,
+                      "only lines that reach a light, these groups with commas between, "
+                      "from its front and end on a face: EV, EEE, and EE, two edges of "
+                      "one plane seen along each other, and face, a face seen edge-on; "
+                      "the light's own outline makes events too, wherever it lies")
+          ->type_name("GROUP,...")
+          ->delimiter(',')
+          ->allow_extra_args(false);
+  for (const char* name :
+       {"--events", "--kinds", "--between", "--through", "--region", "--near", "--radius",
+        "--between-boxes", "--feature-size", "--budget-mb", "--saved", "--output",
+        "--extend", "--vtk", "--seen-from", "--between-ends", "--crossed"}) {
+    light->excludes(command.get_option(name));
+  }
 }
 
 /// The perturbed copy of the scene.
@@ -559,6 +587,7 @@ Command add_skeleton_command(CLI::App& app) {
   add_saved_option(*command, *options);
   add_query_options(*command, *options);
   add_common_options(*command, *options);
+  add_light_option(*command, *options);
   return command_of(options, run);
 }
 

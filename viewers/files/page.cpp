@@ -8,6 +8,7 @@
 
 #include "viewers/json_text.h"
 #include "viewers/palette.h"
+#include "viewers/queries/view_answer.h"
 
 namespace sightline::viewers {
 namespace {
@@ -243,6 +244,30 @@ std::string missing_section(const Json& report) {
   return html + "</div>\n";
 }
 
+std::string skeleton_cards(const Json& skeleton) {
+  std::int64_t ev = 0, eee = 0, nodes = 0;
+  for (const auto& [kind, n] : skeleton["arcs"].items()) {
+    (kind.starts_with("EEE") ? eee : ev) += n.get<std::int64_t>();
+  }
+  const Json& by_kind = skeleton["nodes"];
+  for (const Json& counts : {by_kind, by_kind.value("end", Json::object())}) {
+    for (const auto& [kind, n] : counts.items()) {
+      if (n.is_number()) nodes += n.get<std::int64_t>();
+    }
+  }
+  return card(grouped(ev), "EV line sets (arcs)") +
+         card(grouped(eee), "EEE line sets (arcs)") +
+         card(grouped(nodes), "extremal lines (nodes)");
+}
+
+/// What the page tells, in a line.
+std::string subject(const Json& report) {
+  const bool views = report.contains("look");
+  if (!report.contains("skeleton")) return views ? "Exact views" : "The scene";
+  return views ? "The exact visibility skeleton, solid mode, and exact views"
+               : "The exact visibility skeleton, solid mode";
+}
+
 std::string figure(const PagePicture& picture) {
   return fmt::format(
       "<figure><a href=\"{}\"><img alt=\"{}\" src=\"data:image/png;base64,{}\"></a>"
@@ -260,6 +285,69 @@ std::string pictures_section(const std::vector<PagePicture>& pictures) {
     html += "</div>\n";
   }
   return html;
+}
+
+/// Of each view the facets of which most is seen.
+std::string seen_rows(const Json& view) {
+  constexpr std::size_t kShown = 8;
+  const char* measure = view.contains("from") ? "solid_angle" : "area";
+  std::vector<const Json*> facets;
+  for (const Json& facet : view["facets"]) facets.push_back(&facet);
+  std::ranges::stable_sort(facets, [&](const Json* a, const Json* b) {
+    return (*a)[measure].get<double>() > (*b)[measure].get<double>();
+  });
+  const double most = facets.empty() ? 1 : (*facets[0])[measure].get<double>();
+  std::string html;
+  for (std::size_t i = 0; i < std::min(kShown, facets.size()); ++i) {
+    const Json& f = *facets[i];
+    const double seen = f[measure].get<double>();
+    html += fmt::format(
+        "<tr><td>{} of {}</td><td class=n>{}</td><td class=n>{:.6g}{}</td>{}</tr>\n",
+        f["facet"].get<int>(), html_escaped(f["object"].get<std::string>()),
+        f["pieces"].get<int>(), seen, view.contains("from") ? " sr" : "",
+        bar(seen / most, "#7d8aa0"));
+  }
+  if (facets.size() > kShown) {
+    html += fmt::format("<tr><td>and {} more</td><td></td><td></td><td></td></tr>\n",
+                        facets.size() - kShown);
+  }
+  return html;
+}
+
+std::string views_section(const Json& report, const std::vector<PagePicture>& pictures) {
+  if (!report.contains("look")) return "";
+  std::string html = "<h2>What is seen</h2>\n";
+  for (const PagePicture& picture : pictures) html += figure(picture);
+  for (const Json& view : report["look"]["views"]) {
+    if (view.is_null()) continue;
+    html += fmt::format(
+        "<table><tr><th>facets seen, {}</th><th class=n>pieces</th><th class=n>{}</th>"
+        "<th></th></tr>\n",
+        html_escaped(viewpoint_text(view)),
+        view.contains("from") ? "solid angle" : "area");
+    html += seen_rows(view) + "</table>\n";
+  }
+  return html;
+}
+
+std::string left_out_section(const Json& report) {
+  if (report["left_out"].empty()) return "";
+  // The command's scene without its folders, as in the title.
+  const std::string file = report["scene"]["file"].get<std::string>();
+  std::string html =
+      "<h2>Not in this report</h2>\n<table><tr><th>part</th><th>why</th><th>how to get "
+      "it</th></tr>\n";
+  for (const Json& left : report["left_out"]) {
+    std::string command = left["command"].get<std::string>();
+    if (const std::size_t at = command.find(file); at != std::string::npos) {
+      command.replace(at, file.size(), file.substr(file.find_last_of('/') + 1));
+    }
+    html +=
+        fmt::format("<tr><td>{}</td><td>{}</td><td><code>{}</code></td></tr>\n",
+                    html_escaped(left["part"].get<std::string>()),
+                    html_escaped(left["why"].get<std::string>()), html_escaped(command));
+  }
+  return html + "</table>\n";
 }
 
 std::string files_section(const Json& report) {
@@ -318,43 +406,34 @@ std::string base64(const std::string& bytes) {
   return out;
 }
 
-std::string report_page(const Json& report, const std::vector<PagePicture>& pictures) {
-  const Json& skeleton = report["skeleton"];
-  std::int64_t ev = 0, eee = 0, nodes = 0;
-  for (const auto& [kind, n] : skeleton["arcs"].items()) {
-    (kind.starts_with("EEE") ? eee : ev) += n.get<std::int64_t>();
-  }
-  const Json& by_kind = skeleton["nodes"];
-  for (const Json& counts : {by_kind, by_kind.value("end", Json::object())}) {
-    for (const auto& [kind, n] : counts.items()) {
-      if (n.is_number()) nodes += n.get<std::int64_t>();
-    }
-  }
+std::string report_page(const Json& report, const std::vector<PagePicture>& pictures,
+                        const std::vector<PagePicture>& views) {
   const std::string scene = file_name(report);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
       "<meta name=viewport content=\"width=device-width,initial-scale=1\">\n"
       "<title>Sightline: {}</title>\n<style>{}</style></head>\n<body><main>\n"
-      "<h1>Sightline: {}</h1>\n<p class=soft>The exact visibility skeleton, solid mode. "
-      "Version "
-      "{}, {} arithmetic.</p>\n",
-      scene, kStyle, scene, report["version"].get<std::string>(),
+      "<h1>Sightline: {}</h1>\n<p class=soft>{}. Version {}, {} arithmetic.</p>\n",
+      scene, kStyle, scene, subject(report), report["version"].get<std::string>(),
       report["options"]["precision"].get<std::string>());
   html += missing_section(report);
   html += "<div class=cards>\n";
-  html += card(grouped(ev), "EV line sets (arcs)");
-  html += card(grouped(eee), "EEE line sets (arcs)");
-  html += card(grouped(nodes), "extremal lines (nodes)");
+  if (report.contains("skeleton")) html += skeleton_cards(report["skeleton"]);
+  if (report.contains("look")) {
+    html += card(grouped(report["look"]["views"].size()), "exact views");
+  }
   html += card(grouped(report["scene"]["faces"].get<std::int64_t>()), "faces");
   html += card(seconds_text(report["seconds"].get<double>()), "in all");
   html += card(memory_text(report["peak_memory_bytes"].get<double>()), "peak memory");
   html += "</div>\n";
   html += pictures_section(pictures);
-  html += counts_section(skeleton);
+  if (report.contains("skeleton")) html += counts_section(report["skeleton"]);
+  html += views_section(report, views);
   html += "<div class=two><div>" + stages_section(report) + "</div><div>" +
           predicates_section(report) + "</div></div>\n";
   html += scene_section(report);
   html += defects_section(report);
+  html += left_out_section(report);
   html += files_section(report);
   return html + "</main></body></html>\n";
 }

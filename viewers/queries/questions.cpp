@@ -42,10 +42,22 @@ std::array<std::string, 3> three_texts(const std::string& text) {
           text.substr(second + 1)};
 }
 
+/// viewpoint(), refused here where PointViewIndex would refuse it.
+Viewpoint viewpoint_in_range(Viewpoint::Kind kind,
+                             const std::array<std::string, 3>& asked) {
+  Viewpoint eye = viewpoint(kind, asked);
+  for (int i = 0; i < 3; ++i) {
+    if (is_admissible(eye.at.nearest[i])) continue;
+    throw InvalidInput(
+        fmt::format("the eye: coordinate {} has a magnitude outside [2^-140, 2^140]", i));
+  }
+  return eye;
+}
+
 ViewQuestion question_at(Viewpoint::Kind kind, const JsonInput& where) {
   const std::array<std::string, 3> asked = where.coordinates();
   try {
-    return {viewpoint(kind, asked), asked, where.told()};
+    return {viewpoint_in_range(kind, asked), asked, where.told()};
   } catch (const InvalidInput& refusal) {
     where.refuse(refusal.what());
   }
@@ -117,7 +129,7 @@ ViewQuestion view_question(Viewpoint::Kind kind, const std::string& option,
                            const std::string& text) {
   try {
     const std::array<std::string, 3> asked = three_texts(text);
-    return {viewpoint(kind, asked), asked, fmt::format("{} {}", option, text)};
+    return {viewpoint_in_range(kind, asked), asked, fmt::format("{} {}", option, text)};
   } catch (const InvalidInput& refusal) {
     throw InvalidInput(fmt::format("{} '{}': {}", option, text, refusal.what()));
   }

@@ -9,24 +9,6 @@ namespace {
 
 Json vector_json(const Eigen::Vector3d& v) { return Json::array({v[0], v[1], v[2]}); }
 
-/// The structure and the boundaries' corners, two lists of the same order.
-void add_boundaries(Json& json, const std::vector<SeenBoundary>& boundaries) {
-  Json& structure = json["structure"] = Json::array();
-  Json& corners = json["seen"] = Json::array();
-  for (const SeenBoundary& boundary : boundaries) {
-    Json sides = Json::array();
-    for (const auto& names : boundary.sides) {
-      Json in_line = Json::array();
-      for (const SeenSide& side : names) in_line.push_back(told(side));
-      sides.push_back(std::move(in_line));
-    }
-    structure.push_back({{"source_face", boundary.source_face}, {"sides", sides}});
-    Json points = Json::array();
-    for (const Point& p : boundary.corners) points.push_back(point_json(p));
-    corners.push_back(std::move(points));
-  }
-}
-
 }  // namespace
 
 std::string_view name(ShadowClass shadow) {
@@ -55,6 +37,20 @@ std::string told(const SeenSide& side) {
   return "horizon";
 }
 
+Json structure_json(const std::vector<SeenBoundary>& boundaries) {
+  Json structure = Json::array();
+  for (const SeenBoundary& boundary : boundaries) {
+    Json sides = Json::array();
+    for (const auto& names : boundary.sides) {
+      Json in_line = Json::array();
+      for (const SeenSide& side : names) in_line.push_back(told(side));
+      sides.push_back(std::move(in_line));
+    }
+    structure.push_back({{"source_face", boundary.source_face}, {"sides", sides}});
+  }
+  return structure;
+}
+
 Json shadow_json(const ShadowQuestion& question, const Backprojection& seen,
                  const ShadowJsonOptions& options) {
   Json json{{"at", asked_json(question.point.at, question.asked)},
@@ -66,7 +62,15 @@ Json shadow_json(const ShadowQuestion& question, const Backprojection& seen,
     json["gradient"] = nullptr;
     if (seen.gradient) json["gradient"] = vector_json(*seen.gradient);
   }
-  if (options.structure) add_boundaries(json, seen.boundaries);
+  if (options.structure) {
+    json["structure"] = structure_json(seen.boundaries);
+    Json& corners = json["seen"] = Json::array();
+    for (const SeenBoundary& boundary : seen.boundaries) {
+      Json points = Json::array();
+      for (const Point& p : boundary.corners) points.push_back(point_json(p));
+      corners.push_back(std::move(points));
+    }
+  }
   return json;
 }
 

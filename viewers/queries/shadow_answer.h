@@ -16,6 +16,9 @@ namespace sightline::viewers {
 /// "source 3", "edge 12", "cut 7" or "horizon".
 [[nodiscard]] std::string told(const SeenSide& side);
 
+/// [{"source_face", "sides": [[names in line], ...]}, ...], a boundary an item.
+[[nodiscard]] Json structure_json(const std::vector<SeenBoundary>& boundaries);
+
 /// One of "points" in the answer of `sightline shadows`.
 struct ShadowJsonOptions {
   bool structure = false, gradient = false;

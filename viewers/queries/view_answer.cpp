@@ -185,6 +185,16 @@ Json view_json(const Scene& scene, const ViewQuestion& question, const PointView
   return j;
 }
 
+std::string viewpoint_text(const Json& view) {
+  const char* kind = view.contains("from") ? "from" : "direction";
+  std::vector<std::string> asked;
+  for (const Json& number : view[kind]) {
+    asked.push_back(number.is_string() ? number.get<std::string>()
+                                       : fmt::format("{:g}", number.get<double>()));
+  }
+  return fmt::format("{} {}", kind, fmt::join(asked, ","));
+}
+
 std::string view_csv(const Scene& scene, std::size_t number, const PointView& view) {
   const bool point = view.eye.kind == Viewpoint::Kind::Eye;
   std::string rows;

@@ -35,6 +35,9 @@ namespace sightline::viewers {
 [[nodiscard]] Json view_json(const Scene& scene, const ViewQuestion& question,
                              const PointView& view, bool with_map);
 
+/// "from 1,2,1/3" or "direction 0,0,1", of such a view.
+[[nodiscard]] std::string viewpoint_text(const Json& view);
+
 /// The first line of the table of --csv.
 inline constexpr std::string_view kViewCsvHead =
     "view,facet,object,faces,front,pieces,solid_angle,area,gradient_x,gradient_y,"
