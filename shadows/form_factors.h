@@ -9,9 +9,9 @@
 //   const FormFactors f = form_factors(scene, surfaces, {.accuracy = 1e-6});
 //   std::cout << f.at(0, 1) << " +- " << f.error_bound << '\n';
 //
-// Neighbours: polygon_form_factor.h for two polygons with nothing in between;
-// point_form_factor.h for a point and a polygon; backprojection.h for a point and a light
-// among blockers.
+// Neighbours: form_factor_surfaces.h names the surfaces; polygon_form_factor.h for two
+// polygons with nothing in between; point_form_factor.h for a point and a polygon;
+// backprojection.h for a point and a light among blockers.
 
 #pragma once
 
@@ -26,27 +26,9 @@
 #include "linespace/predicates.h"
 #include "linespace/request.h"
 #include "linespace/scene.h"
+#include "shadows/form_factor_surfaces.h"
 
 namespace sightline {
-
-/// Faces that send out and receive by one of their sides.
-struct FormFactorSurface {
-  std::string name;
-  std::vector<int> faces;  ///< scene faces, ascending
-  /// By the side on which the file lists them clockwise.
-  bool back = false;
-};
-
-/// The groups of these names, or `#i-j` (Scene::faces_named); no names: all objects.
-/// each_face: a surface for every polygon of the file among them, named GROUP/number.
-/// Those of both_sides have a second surface behind them, their back: GROUP/back.  Throws
-/// InvalidInput for a name that does not exist.
-struct SurfaceWish {
-  std::vector<std::string> groups, both_sides;
-  bool each_face = false;
-};
-[[nodiscard]] std::vector<FormFactorSurface> surfaces_of(const Scene& scene,
-                                                         const SurfaceWish& wish);
 
 struct FormFactorRequest : Request {
   /// Largest error of an entry, others, outside and backs included.

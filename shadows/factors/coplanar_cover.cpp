@@ -6,7 +6,6 @@
 
 #include "linespace/predicates.h"
 #include "shadows/factors/exchange_geometry.h"
-#include "shadows/factors/factor_sides.h"
 #include "shadows/factors/plane_regions.h"
 
 namespace sightline::internal {

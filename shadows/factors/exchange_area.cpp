@@ -52,14 +52,15 @@ double rounding_error(const ExchangeGeometry& g) {
     boundary += std::hypot(b.x - a.x, b.y - a.y);
   }
   for (const ContourPiece& piece : g.pieces) lines += piece.length;
-  return 5e-16 * boundary * lines;
+  return 5e-15 * boundary * lines;
 }
 
 }  // namespace
 
 ExchangeArea integrate_exchange(const ExchangeGeometry& g, double tolerance) {
-  // Where the function has a kink inside, two rules may agree by chance.
-  constexpr double kKinkCaution = 20;
+  // Where the function has a kink inside, two rules may agree by chance; rules of few
+  // nodes sooner.
+  constexpr double kKinkCaution = 20, kCoarseCaution = 4;
   constexpr int kMostCuts = 20000;
   // Between events the function is smooth, and a rule of few nodes does for few digits.
   constexpr double kCoarse = 1e-10;
@@ -83,6 +84,7 @@ ExchangeArea integrate_exchange(const ExchangeGeometry& g, double tolerance) {
         };
         IntegralEstimate estimate =
             coarse ? kronrod(kKronrod7, from, to, f) : kronrod(kKronrod15, from, to, f);
+        if (coarse) estimate.error *= kCoarseCaution;
         if (!smooth) estimate.error *= kKinkCaution;
         return estimate;
       });

@@ -15,7 +15,7 @@ using Vector = Eigen::Vector3d;
 /// In units of the frame, in which the whole configuration is about 1 wide.  What is so
 /// near counts as touching when lines are sorted out; the exchange area depends on it by
 /// no more than this.  It is some thousand times the rounding of a coordinate.
-constexpr double kTouching = 1e-12;
+constexpr double kTouching = 1e-13;
 
 // ---- the frame ------------------------------------------------------------------------
 

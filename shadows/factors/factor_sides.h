@@ -10,7 +10,7 @@
 #include "linespace/scene.h"
 #include "linespace/scene/solid_index.h"
 #include "shadows/factors/convex_merge.h"
-#include "shadows/form_factors.h"
+#include "shadows/form_factor_surfaces.h"
 
 namespace sightline::internal {
 

@@ -1,11 +1,11 @@
 #include "shadows/form_factors.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <memory>
 
 #include "linespace/work/parallel.h"
+#include "shadows/factors/exchange_geometry.h"
 #include "shadows/factors/factor_sides.h"
 #include "shadows/factors/pair_factor.h"
 
@@ -103,7 +103,7 @@ class Matrix {
         error += e.error;
         if (up_ && what == kOutside) {
           const ExchangeArea sky =
-              pairs.rising(sides_[s], elsewhere_[t], *up_, tolerance);
+              rising_part(pairs, sides_[s], elsewhere_[t], e, tolerance);
           part.sky += sky.value;
           sky_error += sky.error;
         }
@@ -112,6 +112,21 @@ class Matrix {
       (what == kOthers ? part.others : what == kBacks ? part.backs : part.outside) += sum;
       part.error = std::max(part.error, error);
     }
+  }
+
+  /// Of what leaves through a window.
+  [[nodiscard]] ExchangeArea rising_part(PairFactor& pairs, const PreparedSide& side,
+                                         const PreparedSide& window,
+                                         const ExchangeArea& all,
+                                         double tolerance) const {
+    const auto c = spanning_corners(side.polygon);
+    const Eigen::Vector3d normal = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
+    const Eigen::Vector3d up = up_->normalized();
+    // A side that faces straight up or down has the same horizon.
+    constexpr double kParallel = 1e-14;
+    if (normal.cross(up).norm() > kParallel)
+      return pairs.rising(side, window, up, tolerance);
+    return normal.dot(up) > 0 ? all : ExchangeArea{};
   }
 
   double accuracy_;
@@ -199,34 +214,6 @@ FormFactors form_factors(const Scene& scene, std::span<const FormFactorSurface> 
   result.complete = by == StoppedBy::Nothing;
   fill_rows(parts, result);
   return result;
-}
-
-std::vector<FormFactorSurface> surfaces_of(const Scene& scene, const SurfaceWish& wish) {
-  std::vector<std::string> names = wish.groups;
-  if (names.empty()) {
-    for (const Object& object : scene.objects()) names.push_back(object.name);
-  }
-  std::vector<FormFactorSurface> surfaces;
-  const auto add = [&](const std::string& name, std::vector<int> faces, bool both) {
-    if (faces.empty()) return;
-    surfaces.push_back({name, faces, false});
-    if (both) surfaces.push_back({name + "/back", std::move(faces), true});
-  };
-  for (const std::string& name : wish.both_sides) (void)scene.faces_named(name);
-  for (const std::string& name : names) {
-    const std::vector<int> faces = scene.faces_named(name);
-    const bool both = std::ranges::find(wish.both_sides, name) != wish.both_sides.end();
-    if (!wish.each_face) {
-      add(name, faces, both);
-      continue;
-    }
-    std::map<int, std::vector<int>> by_polygon;
-    for (const int f : faces) by_polygon[scene.faces()[f].source].push_back(f);
-    for (auto& [polygon, of_polygon] : by_polygon) {
-      add(name + "/" + std::to_string(polygon), std::move(of_polygon), both);
-    }
-  }
-  return surfaces;
 }
 
 }  // namespace sightline

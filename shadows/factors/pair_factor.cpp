@@ -25,6 +25,13 @@ PointList before(const PlaneSide& plane, const PointList& polygon) {
   return part;
 }
 
+/// Of two that see each other: an opening may be less than what can be told.  Corners of
+/// windows and backs may be rounded, so that for these there may be none.
+double above_zero(double value, const PreparedSide& target) {
+  if (value > 0) return value;
+  return target.of >= 0 ? std::numeric_limits<double>::min() : 0;
+}
+
 }  // namespace
 
 ExchangeArea PairFactor::of(const PreparedSide& a, const PreparedSide& b,
@@ -34,7 +41,9 @@ ExchangeArea PairFactor::of(const PreparedSide& a, const PreparedSide& b,
   polygons_.clear();
   if (between_.empty()) {
     ++counts_.open;
-    return exchange_area(a.polygon, b.polygon, polygons_, tolerance);
+    ExchangeArea result = exchange_area(a.polygon, b.polygon, polygons_, tolerance);
+    result.value = above_zero(result.value, b);
+    return result;
   }
   if (blockers_.hidden_by_one(a, b, between_)) return {};
   for (const int i : between_) polygons_.push_back(blockers_.polygon(i));
@@ -69,13 +78,12 @@ void PairFactor::decide(const PreparedSide& a, const PreparedSide& b, ExchangeAr
   try {
     answer = polygon_visibility(question);
   } catch (const InvalidInput&) {
-    return;  // rounding has left a part before the other's plane without area
+    // Rounding has left a part before the other's plane without area.
   }
-  if (answer->verdict == Verdict::Hidden) sum = {};
-  if (answer->verdict == Verdict::Visible && sum.value <= 0) {
-    // An opening less than what can be told.
-    sum.value = std::numeric_limits<double>::min();
-  }
+  if (answer && answer->verdict == Verdict::Hidden) sum = {};
+  if (answer && answer->verdict == Verdict::Visible)
+    sum.value = above_zero(sum.value, b);
+  sum.value = std::max(sum.value, 0.0);
 }
 
 }  // namespace sightline::internal

@@ -153,7 +153,7 @@ void PointFactorIndex::Impl::add_region(const PointView& view, const MapRegion& 
             // Counter-clockwise around its front, which the eye sees.
             const Vector normal =
                 (side.polygon[(i + 1) % n] - eye).cross(side.polygon[i] - eye);
-            within.planes.push_back(-normal.normalized());
+            within.planes.push_back(normal.normalized());
           }
         }
         add(side, within.of(walks), result);

@@ -9,7 +9,7 @@
 #include "shadows/factors/contour_integrand.h"
 #include "shadows/factors/exchange_area.h"
 #include "shadows/factors/exchange_geometry.h"
-#include "shadows/factors/segment_pair.h"
+#include "shadows/radiometry/segment_pair.h"
 
 namespace sightline {
 namespace {

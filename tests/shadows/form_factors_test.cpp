@@ -97,7 +97,8 @@ void expect_consistent(const FormFactors& f, double within) {
     for (std::size_t k = 0; k < f.rows[i].to.size(); ++k) {
       const int j = f.rows[i].to[k];
       EXPECT_GT(f.rows[i].factor[k], 0);
-      EXPECT_NEAR(f.rows[i].factor[k] * f.areas[i], f.at(j, row) * f.areas[j], 1e-15);
+      const double sent = f.rows[i].factor[k] * f.areas[i];
+      EXPECT_NEAR(sent, f.at(j, row) * f.areas[j], 1e-15 * sent);
     }
   }
 }
@@ -281,6 +282,38 @@ TEST(FormFactors, RowsAreTheMeansOfPoints) {
   }
 }
 
+// The sky of a tilted and of an upright surface without a horizon: (1 + cos) / 2; and
+// beside a wall, what points see of it on the mean.
+TEST(FormFactors, SkyOfTiltedSurfaces) {
+  SceneMaker maker;
+  maker.polygon("tilted", {{0, 0, 0}, {1, 0, 0}, {1, 0.8, 0.6}, {0, 0.8, 0.6}});
+  maker.sheet("upright", 0, 4, false, {0, 1}, {0, 1});
+  FormFactorRequest request;
+  request.up = Eigen::Vector3d{0, 0, 2};
+  request.threads = 1;
+  request.accuracy = 1e-8;
+  const Scene alone = SceneMaker(maker).scene();
+  const FormFactors far = form_factors(alone, surfaces_of(alone, {}), request);
+  EXPECT_NEAR(far.rows[0].sky, 0.5 * (1 + 0.8), 0.02);
+  maker.sheet("wall", 1, -0.5, true, {0, 2}, {-1, 3});
+  const Scene scene = maker.scene();
+  const FormFactors f = form_factors(scene, surfaces_of(scene, {}), request);
+  const PointFactorIndex index(scene, surfaces_of(scene, {}));
+  const int n = 16;
+  double mean = 0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double u = (i + 0.5) / n, v = (j + 0.5) / n;
+      const Eigen::Vector3d normal{0, -0.6, 0.8};
+      const Point at = Point{u, 0.8 * v, 0.6 * v} + 1e-12 * normal;
+      mean += index.at(eye_at(at), normal, request.up).sky / (n * n);
+    }
+  }
+  EXPECT_NEAR(f.rows[0].sky, mean, 1e-3);
+  EXPECT_LT(f.rows[0].sky, f.rows[0].outside);
+  EXPECT_GT(f.rows[0].sky, 0.1);
+}
+
 // ---- people's cases -------------------------------------------------------------------
 
 // u-dales 359: an obstructed pair came out above 1.
@@ -347,7 +380,7 @@ TEST(FormFactorCases, RowsOfPanels) {
                   {{-l, at, 0}, {l, at, 0}, {l, at + y, z}, {-l, at + y, z}});
   }
   const SurfaceWish wish{.both_sides = {"row", "front"}};
-  const PointFactors p = from_point(maker.scene(), {0, 1e-12 * y, 1e-12 * z}, {0, -z, y},
+  const PointFactors p = from_point(maker.scene(), {0, -1e-11 * z, 1e-11 * y}, {0, -z, y},
                                     wish, Eigen::Vector3d{0, 0, 1});
   EXPECT_NEAR(p.factors[3], 0.137667454607783, 1e-9);
   EXPECT_NEAR(p.sky, 0.795345247284436, 1e-9);

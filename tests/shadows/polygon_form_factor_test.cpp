@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "shadows/factors/adaptive_integral.h"
-#include "shadows/factors/dilogarithm.h"
-#include "shadows/factors/segment_pair.h"
 #include "shadows/point_form_factor.h"
+#include "shadows/radiometry/dilogarithm.h"
+#include "shadows/radiometry/segment_pair.h"
 
 namespace sightline {
 namespace {

@@ -1,4 +1,4 @@
-#include "shadows/factors/dilogarithm.h"
+#include "shadows/radiometry/dilogarithm.h"
 
 #include <array>
 #include <numbers>

@@ -1,11 +1,11 @@
-#include "shadows/factors/segment_pair.h"
+#include "shadows/radiometry/segment_pair.h"
 
 #include <Eigen/Geometry>
 #include <cmath>
 #include <complex>
 #include <limits>
 
-#include "shadows/factors/dilogarithm.h"
+#include "shadows/radiometry/dilogarithm.h"
 
 namespace sightline::internal {
 namespace {
