@@ -11,6 +11,7 @@
 #include <set>
 
 #include "linespace/scene.h"
+#include "linespace/swaths/exact_swath.h"
 #include "tests/shadows/naive_plane_counts.h"
 #include "tests/shadows/plane_curve_generators.h"
 
@@ -342,27 +343,45 @@ PlaneCurve parabola(int id, const Rational& c0, const Rational& c1, const Ration
   return {id, {0, 1, 0}, {c0, c1, c2}, {1, 0, 0}, rational_end(from), rational_end(to)};
 }
 
+// The same with another parameter, x = t / (1 + t), from t = from to t = to.
+PlaneCurve bent_parabola(int id, const Rational& c0, const Rational& c1,
+                         const Rational& c2, const Rational& from, const Rational& to) {
+  return {id,        {0, 1, 1},          {c0, 2 * c0 + c1, c0 + c1 + c2},
+          {1, 2, 1}, rational_end(from), rational_end(to)};
+}
+
 // Two parabolas that cross at x = c - e and c + e, closer than doubles tell apart, and a
 // third that passes through the first of these points.
 TEST(PlanarMapOfConics, CrossingsNextToOneAnother) {
   const Rational c(1, 3), e(1, Integer(1) << 70);
   // y = x^2, that plus (x - c)^2 - e^2, that plus (x - c + e).
-  const std::vector curves{parabola(1, 0, 0, 1, -1, 1),
-                           parabola(2, c * c - e * e, -2 * c, 2, Rational(-1, 8), 1),
-                           parabola(3, e - c, 1, 1, -1, Rational(3, 4))};
-  const PlanarMap map(curves, square(-4, 4));
-  expect_valid(map);
-  // Crossings: 1 and 2 in two points, 3 in the first of them; 2 and 3 again where x - c
-  // - e = 1, beyond the end of 3.
-  EXPECT_EQ(counts(map), (Counts{4 + 6 + 2, 4 + 3 + 3 + 2, 2}));
-  int of_six = 0;
-  for (int v = 0; v < map.vertex_count(); ++v) of_six += map.star(v).size() == 6;
-  EXPECT_EQ(of_six, 1);
-  for (int f = 0; f < map.face_count(); ++f) {
-    if (map.area(f) > 1) continue;
-    const PlanePoint p = map.interior_point(f);
-    const Rational x = p[0] - c;
-    EXPECT_TRUE(p[1] < p[0] * p[0] && p[1] > p[0] * p[0] + x * x - e * e);
+  const Rational c0 = c * c - e * e, c1 = -2 * c;
+  const auto third = parabola(3, e - c, 1, 1, -1, Rational(3, 4));
+  for (const bool bent : {false, true}) {
+    SCOPED_TRACE(bent);
+    const std::vector curves{
+        parabola(1, 0, 0, 1, -1, 1),
+        bent ? bent_parabola(2, c0, c1, 2, Rational(-1, 9), 5)
+             : parabola(2, c0, c1, 2, Rational(-1, 8), Rational(5, 6)),
+        third};
+    const PlanarMap map(curves, square(-4, 4));
+    expect_valid(map);
+    // Crossings: 1 and 2 in two points, 3 in the first of them; 2 and 3 again where x - c
+    // - e = 1, beyond the end of 3.
+    EXPECT_EQ(counts(map), (Counts{4 + 6 + 2, 4 + 3 + 3 + 2, 2}));
+    for (int v = 0; v < map.vertex_count(); ++v) {
+      // On each curve the crossing with all three comes before the other one.
+      if (map.star(v).size() != 6) continue;
+      int to_next = 0;
+      for (const int h : map.star(v)) to_next += map.star(map.target(h)).size() == 4;
+      EXPECT_EQ(to_next, 2);
+    }
+    for (int f = 0; f < map.face_count(); ++f) {
+      if (map.area(f) > 1) continue;
+      const PlanePoint p = map.interior_point(f);
+      const Rational x = p[0] - c;
+      EXPECT_TRUE(p[1] < p[0] * p[0] && p[1] > p[0] * p[0] + x * x - e * e);
+    }
   }
 }
 
@@ -508,6 +527,44 @@ TEST(PlanarMapOfConics, BadCurvesAreRefused) {
   EXPECT_THROW(map_of({1, one, s, {-1, 0, 4}, rational_end(-1), rational_end(1)}),
                InvalidInput);
   EXPECT_NO_THROW(map_of({1, one, s, {4, 0, -1}, rational_end(-1), rational_end(1)}));
+}
+
+// ---- curves from swaths
+
+TEST(PlaneCurves, EndsAtPositionsInQuadraticFields) {
+  for (const int b : {-1, 0, 1}) {
+    const QuadraticRoot s{2, b, 3, 2};  // (2 + b sqrt 2) / 3
+    const PlaneCurve curve{1,         {0, 1, 0},       {1, 0, 0},
+                           {1, 0, 0}, rational_end(0), curve_end_at(s)};
+    const PlanarMap map(std::vector{curve}, square(-4, 4));
+    double furthest = 0;
+    for (int v = 0; v < map.vertex_count(); ++v) {
+      if (map.vertex(v).at.y() == 1) furthest = std::max(furthest, map.vertex(v).at.x());
+    }
+    EXPECT_NEAR(furthest, (2 + b * std::numbers::sqrt2) / 3, 1e-15);
+  }
+}
+
+TEST(PlaneCurves, TraceOfASwath) {
+  // From a vertex at height 4 through an edge at height 2: twice as far on the ground.
+  const ExactSwath swath =
+      exact_swath(Eigen::Vector3d(1, 1, 4), LineThrough{{2, 1, 2}, {1, 3, 2}});
+  const auto trace = swath.trace({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
+  const PlaneCurve curve{1,
+                         rational_quadratic(trace[0]),
+                         rational_quadratic(trace[1]),
+                         rational_quadratic(trace[3]),
+                         rational_end(0),
+                         rational_end(1)};
+  const PlanarMap map(std::vector{curve}, square(-8, 8));
+  for (int e = 0; e < map.edge_count(); ++e) {
+    if (map.on_outline(e)) continue;
+    const CurvePart part = map.part(e, 1);
+    const Eigen::Vector2d p = map.vertex(map.origin(2 * e)).at;
+    const Eigen::Vector2d q = map.vertex(map.target(2 * e)).at;
+    EXPECT_LT(((part.from < part.to ? p : q) - Eigen::Vector2d(3, 1)).norm(), 1e-14);
+    EXPECT_LT(((part.from < part.to ? q : p) - Eigen::Vector2d(1, 5)).norm(), 1e-14);
+  }
 }
 
 // ---- random curves
