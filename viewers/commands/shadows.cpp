@@ -14,6 +14,7 @@
 #include "shadows/shadow_mesh.h"
 #include "viewers/commands/command_line.h"
 #include "viewers/commands/outputs.h"
+#include "viewers/files/shadow_vtk.h"
 #include "viewers/json_text.h"
 #include "viewers/pictures/lit_image.h"
 #include "viewers/queries/mesh_answer.h"
@@ -206,8 +207,8 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
   // 2. What they see, and what a camera sees.
   const BackprojectionIndex index(scene, light, request_of(session, options));
   AnsweredPoints all = ask(session, options, index, questions);
-  const bool asks_receivers =
-      !options.receivers.empty() || (options.at.empty() && options.png.empty());
+  const bool asks_receivers = !options.receivers.empty() || !options.vtk.empty() ||
+                              (options.at.empty() && options.png.empty());
   Shadows shadows;
   if (asks_receivers) {
     Request request = request_of(session, options);
@@ -218,6 +219,11 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
   if (png != nullptr) write_picture(session, options, scene, index, light, *camera, *png);
 
   // 3. The files; the answer comes last.
+  if (!options.vtk.empty()) {
+    session.write("VTK files", [&](const Request& request) {
+      write_vtk_shadows(options.vtk, scene, shadows, request);
+    });
+  }
   if (csv != nullptr) {
     csv->stream() << (options.at.empty() ? kReceiverCsvHead : kShadowCsvHead);
     if (options.at.empty()) {
