@@ -351,6 +351,19 @@ TEST_F(CliShadows, WhatTheBudgetLeavesIsNull) {
   EXPECT_EQ(std::ranges::count(contents(file("v.csv")), '\n'), 1 + done);
 }
 
+// A point is done at once; the events of the lamp on all of the room take seconds.
+TEST_F(CliShadows, WhatTheBudgetLeavesOfReceiversIsMissing) {
+  EXPECT_EQ(shadows(kRoom + " --light lamp_shade --at " + file("p.txt", "5 1 3\n") +
+                    " --receivers floor,table_top --budget 0.5 --json " + file("v.json")),
+            3);
+  EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
+  const json j = json::parse(contents(file("v.json")));
+  EXPECT_EQ(j.at("complete"), false);
+  EXPECT_TRUE(j.at("points").at(0).is_object());
+  EXPECT_EQ(j.at("receivers").size() + j.at("missing").size(), 2U);
+  EXPECT_EQ(j.at("missing").back(), "table_top");
+}
+
 TEST_F(CliShadows, RefusesWhatItCannotAnswerInOneLine) {
   expect_refused(kScenes + "mid_air.obj", "--light is required");
   expect_refused(kScenes + "mid_air.obj --light lamb", "'lamb'; did you mean 'lamp'?");

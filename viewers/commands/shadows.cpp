@@ -159,6 +159,21 @@ std::vector<Receiver> receivers_of(const ShadowOptions& options, const Scene& sc
   return receivers;
 }
 
+/// With all receivers missing where the budget ended before the first was done.
+Shadows ask_receivers(Session& session, const ShadowOptions& options, const Scene& scene,
+                      const LightSource& light) {
+  const std::vector<Receiver> receivers = receivers_of(options, scene, light);
+  Request request = request_of(session, options);
+  session.limit(request);
+  try {
+    return find_shadows(scene, light, receivers, request);
+  } catch (const Stopped&) {
+    Shadows none;
+    for (const Receiver& receiver : receivers) none.missing.push_back(receiver.name);
+    return none;
+  }
+}
+
 void print_receivers(const Shadows& shadows) {
   for (const ReceiverShadows& r : shadows.receivers) {
     std::size_t edges = 0, faces = 0;
@@ -210,11 +225,7 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
   const bool asks_receivers = !options.receivers.empty() || !options.vtk.empty() ||
                               (options.at.empty() && options.png.empty());
   Shadows shadows;
-  if (asks_receivers) {
-    Request request = request_of(session, options);
-    session.limit(request);
-    shadows = find_shadows(scene, light, receivers_of(options, scene, light), request);
-  }
+  if (asks_receivers) shadows = ask_receivers(session, options, scene, light);
   const bool complete = all.points.size() == questions.size() && shadows.complete();
   if (png != nullptr) write_picture(session, options, scene, index, light, *camera, *png);
 
