@@ -81,8 +81,7 @@ void PairFactor::decide(const PreparedSide& a, const PreparedSide& b, ExchangeAr
     // Rounding has left a part before the other's plane without area.
   }
   if (answer && answer->verdict == Verdict::Hidden) sum = {};
-  if (answer && answer->verdict == Verdict::Visible)
-    sum.value = above_zero(sum.value, b);
+  if (answer && answer->verdict == Verdict::Visible) sum.value = above_zero(sum.value, b);
   sum.value = std::max(sum.value, 0.0);
 }
 
