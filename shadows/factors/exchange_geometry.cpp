@@ -129,7 +129,12 @@ class Importer {
       c.heights[0] = with_sign(c.at.z(), orient3d(sender_[0], sender_[1], sender_[2], p));
       c.heights[1] = with_sign(target_normal_.dot(c.at - target_at_),
                                orient3d(target_[0], target_[1], target_[2], p));
-      if (std::abs(c.heights[0]) < kTouching) c.at.z() = std::max(0.0, c.heights[0]);
+      // A side that rounding has laid now on this, now on that side of a plane lies in
+      // it: cut there, it would have a corner too many.
+      for (double& height : c.heights) {
+        if (std::abs(height) < kTouching) height = 0;
+      }
+      if (c.heights[0] == 0) c.at.z() = 0;
       result.push_back(c);
     }
     return result;

@@ -291,5 +291,26 @@ TEST(OccludedFormFactor, BoundsHoldOnRandomPairs) {
   }
 }
 
+// A part of the built-in room's floor and a face of its pyramid: rounding has laid the
+// floor's first side now on this, now on that side of the face's plane.  A blocker that
+// hides nothing once made thirty times as much of it.
+TEST(OccludedFormFactor, SideInThePlaneOfTheTarget) {
+  const Corners floor{{3.2378472222222219, 0, 4.5},
+                      {2.0677595964566935, 0, 2.2434024360236227},
+                      {1.88671875, 0, 2.1679687500000004},
+                      {0.9150390625, 0, 4.5}};
+  const Corners face{
+      {1.546875, 1.140625, 0.890625}, {1.171875, 0, 0.515625}, {1.609375, 0, 1.359375}};
+  const Corners table{{2, 0.71875, 1.5},
+                      {3.5, 0.71875, 2.125},
+                      {3.1875, 0.71875, 2.875},
+                      {1.6875, 0.71875, 2.25}};
+  const ExchangeArea open = exchange(floor, face, {}, 1e-9);
+  const ExchangeArea partly = exchange(floor, face, {table}, 1e-9);
+  EXPECT_LT(partly.value, open.value);
+  EXPECT_GT(partly.value, 0.99 * open.value);
+  EXPECT_NEAR(open.value, 0.0021458, 1e-7);
+}
+
 }  // namespace
 }  // namespace sightline
