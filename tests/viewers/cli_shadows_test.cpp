@@ -334,18 +334,18 @@ TEST_F(CliShadows, PicturesNeedNoDisplay) {
 
 TEST_F(CliShadows, WhatTheBudgetLeavesIsNull) {
   std::ostringstream points;
-  for (int i = 0; i < 60000; ++i)
-    points << 3 + 0.00003 * i << ',' << 0.3 << ',' << 2 + 0.00001 * i << ",0,1,0\n";
+  for (int i = 0; i < 400000; ++i)
+    points << 3 + 0.000005 * i << ',' << 0.3 << ',' << 2 + 0.000002 * i << ",0,1,0\n";
   EXPECT_EQ(shadows(kRoom + " --light lamp_shade --at " + file("many.txt", points.str()) +
-                    " --budget 1 --csv " + file("v.csv") + " --json " + file("v.json")),
+                    " --budget 4 --csv " + file("v.csv") + " --json " + file("v.json")),
             3);
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
   const json j = json::parse(contents(file("v.json")));
   EXPECT_EQ(j.at("complete"), false);
   const json& p = j.at("points");
-  ASSERT_EQ(p.size(), 60000U);
+  ASSERT_EQ(p.size(), 400000U);
   EXPECT_TRUE(p[0].is_object());
-  EXPECT_TRUE(p[59999].is_null());
+  EXPECT_TRUE(p[399999].is_null());
   const auto done =
       std::ranges::count_if(p, [](const json& one) { return !one.is_null(); });
   EXPECT_EQ(std::ranges::count(contents(file("v.csv")), '\n'), 1 + done);
