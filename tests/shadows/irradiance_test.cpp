@@ -125,6 +125,18 @@ TEST(IrradianceMesh, KeepsTheJumpAtAFoot) {
   EXPECT_LE(lit.error(mesh, 1000), 1e-4);
 }
 
+TEST(IrradianceMesh, KeepsBothSidesOfAnUprightSheet) {
+  // On its foot all of the lamp is seen, beside it only what is on the same side.
+  PolygonSoup soup = lamp_and_ground();
+  add_polygon(soup, "sheet", {{0.5, -1, 0}, {0.5, 1, 0}, {0.5, 1, 2}, {0.5, -1, 2}});
+  const Lit lit(soup);
+  const IrradianceMesh mesh = lit.interpolated({.accuracy = 1e-3, .depth = 6});
+  for (const double x : {0.5 - 1e-7, 0.5 + 1e-7}) {
+    const Point beside(x, 0.1, 0);
+    EXPECT_NEAR(mesh.at(beside)->value, lit.exact(beside), 1e-3) << x;
+  }
+}
+
 TEST(IrradianceMesh, RefusesOtherOrders) {
   const Lit lit(lamp_and_ground());
   EXPECT_THROW(lit.interpolated({.order = 3}), InvalidInput);
