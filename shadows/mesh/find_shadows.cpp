@@ -2,6 +2,7 @@
 #include <map>
 
 #include "linespace/light/light_events.h"
+#include "linespace/work/deadline.h"
 #include "linespace/work/stage.h"
 #include "shadows/backprojection.h"
 #include "shadows/mesh/mesh_maker.h"
@@ -38,10 +39,11 @@ class ShadowFinder {
                const std::vector<Receiver>& receivers, const Request& request)
       : scene_(&scene),
         request_(request),
+        deadline_(request),
         light_(scene, source, request),
-        space_(scene, request) {
+        space_(scene, deadline_.what_is_left(request)) {
     LightEventsRequest wanted;
-    static_cast<Request&>(wanted) = request;
+    static_cast<Request&>(wanted) = deadline_.what_is_left(request);
     for (const int f : source.faces) {
       const bool both = std::ranges::binary_search(source.both_sides, f);
       if (both || !scene.turned(f)) wanted.source_faces.push_back(f);
@@ -88,7 +90,7 @@ class ShadowFinder {
     }
     MeshAndAreas made =
         make_mesh(plane, receiver_curves(*scene_, plane, patch, events_, pieces), facet,
-                  events_, light_, structures_, request_);
+                  events_, light_, structures_, deadline_.what_is_left(request_));
     out.area += plane.area();
     out.umbra_area += made.areas[static_cast<int>(ShadowClass::Umbra)];
     out.penumbra_area += made.areas[static_cast<int>(ShadowClass::Penumbra)];
@@ -101,6 +103,7 @@ class ShadowFinder {
 
   const Scene* scene_;
   Request request_;
+  Deadline deadline_;
   BackprojectionIndex light_;
   LightSpace space_;
   LightEvents events_;

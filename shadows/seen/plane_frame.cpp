@@ -57,6 +57,13 @@ PlaneFrame::Placed PlaneFrame::place(const PicturePoint& p) const {
 
 Point PlaneFrame::on_plane(const PicturePoint& p) const {
   const Placed placed = place(p);
+  // From very near to the plane, or where points nearly coincide.
+  constexpr long double kRounded = 1e-15L;
+  if (!(placed.error <= kRounded * placed.at.cwiseAbs().maxCoeff())) {
+    ExactPoint x = exact_place(p);
+    for (int i = 0; i < 3; ++i) x[i] += origin_[i];
+    return rounded(x);
+  }
   return (placed.at + rounded(origin_).cast<long double>()).cast<double>();
 }
 

@@ -161,7 +161,7 @@ TEST_F(CliShadows, StructureAndGradient) {
 }
 
 // CONTRACT: on an edge of the mesh "gradient" is null, and "one_sided" has both sides'.
-TEST_F(CliShadows, DISABLED_OneSidedGradients) {
+TEST_F(CliShadows, OneSidedGradients) {
   const json p =
       answer(kPlate + " --gradient --at " + file("p.txt", "4,0,0,0,0,1\n")).at("points");
   EXPECT_EQ(p[0].at("one_sided").size(), 2U);

@@ -1,0 +1,146 @@
+#include "shadows/irradiance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "tests/support/add_box.h"
+
+namespace sightline {
+namespace {
+
+void add_polygon(PolygonSoup& soup, const char* name, const std::vector<Point>& corners) {
+  std::vector<int> polygon;
+  for (const Point& p : corners) {
+    polygon.push_back(static_cast<int>(soup.vertices.size()));
+    soup.vertices.push_back(p);
+  }
+  soup.groups.push_back({name, {static_cast<int>(soup.polygons.size())}});
+  soup.polygons.push_back(polygon);
+}
+
+// A square of side 2 that shines down from a height of 4 onto a square of side 16.
+PolygonSoup lamp_and_ground() {
+  PolygonSoup soup;
+  add_polygon(soup, "lamp", {{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}});
+  add_polygon(soup, "ground", {{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}});
+  return soup;
+}
+
+// The ground of a scene, its mesh and its exact values.
+struct Lit {
+  explicit Lit(const PolygonSoup& soup)
+      : scene(soup),
+        source(light_source(scene, std::vector<std::string>{"lamp"})),
+        ground{"ground", scene.faces_named("ground"), true},
+        light(scene, source),
+        shadows(find_shadows(scene, source, {ground})) {}
+
+  [[nodiscard]] IrradianceMesh interpolated(const IrradianceOptions& options) const {
+    return {scene, light, ground, shadows.receivers.at(0).meshes.at(0), options};
+  }
+  [[nodiscard]] double exact(const Point& p) const {
+    return *light.from(shadow_point(p, {0, 0, 1})).form_factor;
+  }
+  // The largest error at random points.
+  [[nodiscard]] double error(const IrradianceMesh& mesh, int points) const {
+    std::mt19937_64 random(7);
+    std::uniform_real_distribution<double> place(-8, 8);
+    double most = 0;
+    for (int i = 0; i < points; ++i) {
+      const Point p(place(random), place(random), 0);
+      const auto found = mesh.at(p);
+      EXPECT_TRUE(found) << p.transpose();
+      if (found) most = std::max(most, std::abs(found->value - exact(p)));
+    }
+    return most;
+  }
+
+  Scene scene;
+  LightSource source;
+  Receiver ground;
+  BackprojectionIndex light;
+  Shadows shadows;
+};
+
+PolygonSoup with_plate() {
+  PolygonSoup soup = lamp_and_ground();
+  add_polygon(soup, "plate",
+              {{-1.5, -1.5, 2}, {1.5, -1.5, 2}, {1.5, 1.5, 2}, {-1.5, 1.5, 2}});
+  return soup;
+}
+
+TEST(IrradianceMesh, ErrorsFallWithTheOrder) {
+  // Half as large triangles: errors fall to 2^-(order + 1).
+  const Lit lit(with_plate());
+  for (const int order : {1, 2}) {
+    double last = 0;
+    for (const int depth : {2, 3}) {
+      const IrradianceMesh mesh =
+          lit.interpolated({.order = order, .accuracy = 0, .depth = depth});
+      const double error = lit.error(mesh, 1000);
+      if (last > 0) {
+        EXPECT_NEAR(std::log2(last / error), order + 1, 0.6) << order;
+      }
+      last = error;
+    }
+  }
+}
+
+TEST(IrradianceMesh, IsAsExactAsAsked) {
+  const Lit lit(with_plate());
+  for (const double accuracy : {1e-3, 1e-5}) {
+    const IrradianceMesh mesh = lit.interpolated({.accuracy = accuracy, .depth = 8});
+    EXPECT_LE(mesh.largest_estimate(), accuracy);
+    EXPECT_LE(lit.error(mesh, 1000), accuracy);
+  }
+}
+
+TEST(IrradianceMesh, UmbraIsZero) {
+  const Lit lit(with_plate());
+  const IrradianceMesh mesh = lit.interpolated({.accuracy = 1});
+  EXPECT_EQ(mesh.at({1.9, 1.9, 0})->value, 0);
+  EXPECT_EQ(mesh.at({-1.9, 0.3, 0})->estimate, 0);
+  EXPECT_GT(mesh.at({2.5, 0, 0})->value, 0);
+}
+
+TEST(IrradianceMesh, NothingBesideTheReceiver) {
+  const Lit lit(lamp_and_ground());
+  const IrradianceMesh mesh = lit.interpolated({.accuracy = 1});
+  EXPECT_FALSE(mesh.at({9, 0, 0}));
+  EXPECT_TRUE(mesh.at({7.9, -7.9, 0}));
+}
+
+TEST(IrradianceMesh, KeepsTheJumpAtAFoot) {
+  // A box that stands on the ground: under it is darkness, at its side is not.
+  PolygonSoup soup = lamp_and_ground();
+  testing::add_box(soup, "box", {3, -1, 0}, {4, 1, 2});
+  const Lit lit(soup);
+  const IrradianceMesh mesh = lit.interpolated({.accuracy = 1e-4, .depth = 8});
+  const Point beside(3 - 1e-7, 0.1, 0), under(3 + 1e-7, 0.1, 0);
+  EXPECT_NEAR(mesh.at(beside)->value, lit.exact(beside), 1e-4);
+  EXPECT_GT(mesh.at(beside)->value, 0.01);
+  EXPECT_EQ(mesh.at(under)->value, 0);
+  EXPECT_LE(lit.error(mesh, 1000), 1e-4);
+}
+
+TEST(IrradianceMesh, KeepsBothSidesOfAnUprightSheet) {
+  // On its foot all of the lamp is seen, beside it only what is on the same side.
+  PolygonSoup soup = lamp_and_ground();
+  add_polygon(soup, "sheet", {{0.5, -1, 0}, {0.5, 1, 0}, {0.5, 1, 2}, {0.5, -1, 2}});
+  const Lit lit(soup);
+  const IrradianceMesh mesh = lit.interpolated({.accuracy = 1e-3, .depth = 6});
+  for (const double x : {0.5 - 1e-7, 0.5 + 1e-7}) {
+    const Point beside(x, 0.1, 0);
+    EXPECT_NEAR(mesh.at(beside)->value, lit.exact(beside), 1e-3) << x;
+  }
+}
+
+TEST(IrradianceMesh, RefusesOtherOrders) {
+  const Lit lit(lamp_and_ground());
+  EXPECT_THROW(lit.interpolated({.order = 3}), InvalidInput);
+}
+
+}  // namespace
+}  // namespace sightline
