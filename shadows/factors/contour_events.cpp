@@ -54,7 +54,7 @@ struct Elements {
 
 std::vector<Vector> in_space(const PlanePolygon& polygon) {
   std::vector<Vector> corners;
-  for (const PlanePoint& p : polygon) corners.emplace_back(p.x, p.y, 0);
+  for (const FlatPoint& p : polygon) corners.emplace_back(p.x, p.y, 0);
   return corners;
 }
 
@@ -94,8 +94,8 @@ class Relevance {
   [[nodiscard]] bool leaves_sender(const Vector& x) const {
     const PlanePolygon& p = g_.sender;
     for (std::size_t i = 0; i < p.size(); ++i) {
-      const PlanePoint& a = p[i];
-      const PlanePoint& b = p[i + 1 < p.size() ? i + 1 : 0];
+      const FlatPoint& a = p[i];
+      const FlatPoint& b = p[i + 1 < p.size() ? i + 1 : 0];
       const double ux = b.x - a.x, uy = b.y - a.y;
       const double beside = ux * (x.y() - a.y) - uy * (x.x() - a.x);
       if (beside < -kSlack * (std::abs(ux) + std::abs(uy))) return false;

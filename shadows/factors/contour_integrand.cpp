@@ -14,7 +14,7 @@ HalfPlane half_plane(const Vector& n, const Vector& q) {
   return {n.x(), n.y(), -n.dot(q)};
 }
 
-std::size_t farthest(std::span<const PlanePoint> polygon, const Vector& q) {
+std::size_t farthest(std::span<const FlatPoint> polygon, const Vector& q) {
   std::size_t best = 0;
   double largest = -1;
   for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -30,18 +30,17 @@ std::size_t farthest(std::span<const PlanePoint> polygon, const Vector& q) {
 
 }  // namespace
 
-double log_contour(std::span<const PlanePoint> polygon, const Vector& q,
-                   const Vector& t) {
+double log_contour(std::span<const FlatPoint> polygon, const Vector& q, const Vector& t) {
   // Logarithms are taken of r / r0, r0 the distance of the farthest corner: a constant
   // adds nothing around a closed polygon, and what is left keeps its digits where the
   // polygon is small beside its distance.
   const std::size_t n = polygon.size();
   const double zz = q.z() * q.z();
   const std::size_t first = farthest(polygon, q);
-  const PlanePoint& origin = polygon[first];
+  const FlatPoint& origin = polygon[first];
   const double x0 = origin.x - q.x(), y0 = origin.y - q.y();
   const double rr0 = x0 * x0 + y0 * y0 + zz;
-  const auto half_log = [&](const PlanePoint& p) {
+  const auto half_log = [&](const FlatPoint& p) {
     const double dx = p.x - origin.x, dy = p.y - origin.y;
     const double change = (dx * (dx + 2 * x0) + dy * (dy + 2 * y0)) / rr0;
     return change > -1 ? 0.5 * std::log1p(change) : -700.0;
@@ -49,9 +48,9 @@ double log_contour(std::span<const PlanePoint> polygon, const Vector& q,
   double sum = 0;
   double log_a = 0;
   for (std::size_t k = 0, i = first; k < n; ++k) {
-    const PlanePoint& a = polygon[i];
+    const FlatPoint& a = polygon[i];
     i = i + 1 < n ? i + 1 : 0;
-    const PlanePoint& b = polygon[i];
+    const FlatPoint& b = polygon[i];
     const double log_b = k + 1 < n ? half_log(b) : 0;
     const double ux = b.x - a.x, uy = b.y - a.y;
     const double length = std::sqrt(ux * ux + uy * uy);

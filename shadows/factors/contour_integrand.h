@@ -52,7 +52,7 @@ class ContourIntegrand {
 
 /// Around a convex polygon in z = 0, counter-clockwise: the integral of
 /// -ln |q - x| t . dx, which is that of t . (n x r) / r^2 over its inside.
-[[nodiscard]] double log_contour(std::span<const PlanePoint> polygon,
+[[nodiscard]] double log_contour(std::span<const FlatPoint> polygon,
                                  const Eigen::Vector3d& q, const Eigen::Vector3d& t);
 
 }  // namespace sightline::internal

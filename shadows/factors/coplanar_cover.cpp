@@ -35,8 +35,8 @@ class Projection {
     v_ = (dropped_ + 2) % 3;
     if (normal_[dropped_] < 0) std::swap(u_, v_);
   }
-  [[nodiscard]] PlanePoint down(const Point& p) const { return {p[u_], p[v_]}; }
-  [[nodiscard]] Point up(const PlanePoint& p) const {
+  [[nodiscard]] FlatPoint down(const Point& p) const { return {p[u_], p[v_]}; }
+  [[nodiscard]] Point up(const FlatPoint& p) const {
     Point q;
     q[u_] = p.x;
     q[v_] = p.y;
@@ -52,7 +52,7 @@ class Projection {
   int dropped_ = 0, u_ = 0, v_ = 0;
 };
 
-HalfPlane left_of(const PlanePoint& a, const PlanePoint& b) {
+HalfPlane left_of(const FlatPoint& a, const FlatPoint& b) {
   const double ux = b.x - a.x, uy = b.y - a.y;
   return {-uy, ux, uy * a.x - ux * a.y};
 }
@@ -133,7 +133,7 @@ std::vector<PointList> CoplanarCover::uncovered(const PointList& polygon) const 
   for (std::size_t i = 0; i < open.size(); ++i) {
     if (doubled_area(open[i]) < 1e-14 * whole) continue;
     PointList part;
-    for (const PlanePoint& p : open[i]) part.push_back(projection.up(p));
+    for (const FlatPoint& p : open[i]) part.push_back(projection.up(p));
     result.push_back(std::move(part));
   }
   return result;

@@ -47,8 +47,8 @@ std::vector<Interval> first_intervals(const ExchangeGeometry& g) {
 double rounding_error(const ExchangeGeometry& g) {
   double boundary = 0, lines = 0;
   for (std::size_t i = 0; i < g.sender.size(); ++i) {
-    const PlanePoint& a = g.sender[i];
-    const PlanePoint& b = g.sender[(i + 1) % g.sender.size()];
+    const FlatPoint& a = g.sender[i];
+    const FlatPoint& b = g.sender[(i + 1) % g.sender.size()];
     boundary += std::hypot(b.x - a.x, b.y - a.y);
   }
   for (const ContourPiece& piece : g.pieces) lines += piece.length;

@@ -277,8 +277,8 @@ class PieceMaker {
     g_.pieces.push_back(std::move(piece));
   }
   void show_target(ContourPiece& piece, const Attachment& a) const {
-    const PlanePoint& p = g_.sender[0];
-    const PlanePoint& r = g_.sender[g_.sender.size() / 2];
+    const FlatPoint& p = g_.sender[0];
+    const FlatPoint& r = g_.sender[g_.sender.size() / 2];
     const Vector x{0.5 * (p.x + r.x), 0.5 * (p.y + r.y), 0};
     const double side = piece.direction.cross(a.across).dot(x - piece.start);
     const bool plus = side > 0 ? a.positive : a.negative;
@@ -291,7 +291,7 @@ class PieceMaker {
     for (const double sign : {1.0, -1.0}) {
       if (sign > 0 ? !piece.shows_negative : !piece.shows_positive) continue;
       const bool all = std::ranges::all_of(piece.attached, [&](const Vector& n) {
-        return std::ranges::any_of(g_.sender, [&](const PlanePoint& p) {
+        return std::ranges::any_of(g_.sender, [&](const FlatPoint& p) {
           return sign * n.dot(Vector{p.x, p.y, 0} - piece.start) > 0;
         });
       });
@@ -355,7 +355,7 @@ void add_shaft_planes(const std::vector<Vector>& a, const std::vector<Vector>& b
 
 void find_shaft(ExchangeGeometry& g) {
   std::vector<Vector> sender;
-  for (const PlanePoint& p : g.sender) sender.emplace_back(p.x, p.y, 0);
+  for (const FlatPoint& p : g.sender) sender.emplace_back(p.x, p.y, 0);
   add_shaft_planes(sender, g.target.corners, g.shaft);
   add_shaft_planes(g.target.corners, sender, g.shaft);
 }

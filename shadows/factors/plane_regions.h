@@ -11,30 +11,30 @@
 
 namespace sightline::internal {
 
-struct PlanePoint {
+struct FlatPoint {
   double x, y;
 };
 
 /// The points with a x + b y + c >= 0.
 struct HalfPlane {
   double a, b, c;
-  [[nodiscard]] double at(const PlanePoint& p) const { return a * p.x + b * p.y + c; }
+  [[nodiscard]] double at(const FlatPoint& p) const { return a * p.x + b * p.y + c; }
   [[nodiscard]] HalfPlane complement() const { return {-a, -b, -c}; }
 };
 
-using PlanePolygon = std::vector<PlanePoint>;
+using PlanePolygon = std::vector<FlatPoint>;
 
 /// Appends the part of a convex polygon in the half-plane; nothing where the polygon has
 /// no point strictly inside.
-inline void append_clipped(std::span<const PlanePoint> polygon, const HalfPlane& half,
+inline void append_clipped(std::span<const FlatPoint> polygon, const HalfPlane& half,
                            PlanePolygon& out) {
   const std::size_t n = polygon.size();
   bool any = false;
-  for (const PlanePoint& p : polygon) any = any || half.at(p) > 0;
+  for (const FlatPoint& p : polygon) any = any || half.at(p) > 0;
   if (!any) return;
   double height = half.at(polygon[n - 1]);
-  PlanePoint previous = polygon[n - 1];
-  for (const PlanePoint& p : polygon) {
+  FlatPoint previous = polygon[n - 1];
+  for (const FlatPoint& p : polygon) {
     const double h = half.at(p);
     if ((height > 0 && h < 0) || (height < 0 && h > 0)) {
       const double w = height / (height - h);
@@ -50,7 +50,7 @@ inline void append_clipped(std::span<const PlanePoint> polygon, const HalfPlane&
 /// Disjoint convex polygons; a scratch of storage that is used again and again.
 class PlaneRegions {
  public:
-  void assign(std::span<const PlanePoint> polygon) {
+  void assign(std::span<const FlatPoint> polygon) {
     points_.assign(polygon.begin(), polygon.end());
     ends_.assign(1, points_.size());
   }
@@ -60,7 +60,7 @@ class PlaneRegions {
   }
   [[nodiscard]] bool empty() const { return ends_.empty(); }
   [[nodiscard]] std::size_t size() const { return ends_.size(); }
-  [[nodiscard]] std::span<const PlanePoint> operator[](std::size_t i) const {
+  [[nodiscard]] std::span<const FlatPoint> operator[](std::size_t i) const {
     const std::size_t first = i == 0 ? 0 : ends_[i - 1];
     return std::span(points_).subspan(first, ends_[i] - first);
   }
@@ -71,7 +71,7 @@ class PlaneRegions {
   void remove(std::span<const HalfPlane> all);
 
  private:
-  void push(std::span<const PlanePoint> polygon) {
+  void push(std::span<const FlatPoint> polygon) {
     next_points_.insert(next_points_.end(), polygon.begin(), polygon.end());
     next_ends_.push_back(next_points_.size());
   }
@@ -79,9 +79,9 @@ class PlaneRegions {
     std::swap(points_, next_points_);
     std::swap(ends_, next_ends_);
   }
-  bool cut(std::span<const PlanePoint> polygon, std::span<const HalfPlane> all);
+  bool cut(std::span<const FlatPoint> polygon, std::span<const HalfPlane> all);
 
-  std::vector<PlanePoint> points_, next_points_, inside_, clipped_;
+  std::vector<FlatPoint> points_, next_points_, inside_, clipped_;
   std::vector<std::size_t> ends_, next_ends_;
 };
 
@@ -98,18 +98,18 @@ inline void PlaneRegions::keep(const HalfPlane& half) {
 
 /// No point of the polygon is strictly inside all half-planes, as one of them alone
 /// shows.
-inline bool surely_outside(std::span<const PlanePoint> polygon,
+inline bool surely_outside(std::span<const FlatPoint> polygon,
                            std::span<const HalfPlane> all) {
   for (const HalfPlane& half : all) {
     bool outside = true;
-    for (const PlanePoint& p : polygon) outside = outside && half.at(p) <= 0;
+    for (const FlatPoint& p : polygon) outside = outside && half.at(p) <= 0;
     if (outside) return true;
   }
   return false;
 }
 
 // Pushes what of the polygon is outside some half-plane; false if that is all of it.
-inline bool PlaneRegions::cut(std::span<const PlanePoint> polygon,
+inline bool PlaneRegions::cut(std::span<const FlatPoint> polygon,
                               std::span<const HalfPlane> all) {
   const std::size_t points = next_points_.size(), ends = next_ends_.size();
   inside_.assign(polygon.begin(), polygon.end());
@@ -145,10 +145,10 @@ inline void PlaneRegions::remove(std::span<const HalfPlane> all) {
 }
 
 /// Twice the area, counter-clockwise positive.
-[[nodiscard]] inline double doubled_area(std::span<const PlanePoint> polygon) {
+[[nodiscard]] inline double doubled_area(std::span<const FlatPoint> polygon) {
   double sum = 0;
   for (std::size_t i = 2; i < polygon.size(); ++i) {
-    const PlanePoint &o = polygon[0], &a = polygon[i - 1], &b = polygon[i];
+    const FlatPoint &o = polygon[0], &a = polygon[i - 1], &b = polygon[i];
     sum += (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
   }
   return sum;

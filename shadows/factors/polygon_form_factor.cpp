@@ -32,7 +32,7 @@ void check(std::span<const Point> polygon, const char* name) {
 /// A F in units of the frame, from both boundaries.
 ExchangeArea closed_form(const ExchangeGeometry& g) {
   std::vector<Point> sender;
-  for (const PlanePoint& p : g.sender) sender.emplace_back(p.x, p.y, 0);
+  for (const FlatPoint& p : g.sender) sender.emplace_back(p.x, p.y, 0);
   const std::vector<Point>& target = g.target.corners;
   double sum = 0, size = 0;
   for (std::size_t i = 0; i < sender.size(); ++i) {

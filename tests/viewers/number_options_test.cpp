@@ -137,6 +137,7 @@ std::vector<NumberOption> number_options() {
   for (const char* name : {"--from", "--direction", "--up", "--towards"}) {
     add("look", name, points);
   }
+  for (const char* name : {"--from", "--direction"}) add("analyse", name, points);
   add("look", "--window", {"#,-2,2,2", "-2,#,2,2", "-2,-2,#,2", "-2,-2,2,#"});
   add("view", "--box", boxes);
   add("view", "--eye", points);

@@ -188,7 +188,7 @@ TEST_F(SavedSkeleton, OptionsThatOnlyTheBuildingObeysAreRefused) {
        {"--near 0,0,0 --radius 0.5", "--kinds EEE", "--events polygon", "--events solid",
         "--feature-size 1", "--between-boxes 0,0,0,1,1,1 2,2,2,3,3,3",
         "--between tall_block short_block", "--through floor", "--region 0,0,0,9,9,9",
-        "--budget-mb 10"}) {
+        "--budget-mb 10", "--light floor"}) {
     expect_told("$S skeleton $CORNELL --saved s.json " + std::string(option), 2,
                 "excludes");
   }
@@ -198,9 +198,10 @@ TEST_F(SavedSkeleton, OptionsThatOnlyTheBuildingObeysAreRefused) {
 
 // Every option of the command is refused beside --saved (as above), or obeyed (as below).
 TEST_F(SavedSkeleton, EveryOptionIsRefusedOrObeyed) {
-  const std::set<std::string> refused{
-      "--events", "--kinds",  "--between",       "--through",      "--region",
-      "--near",   "--radius", "--between-boxes", "--feature-size", "--budget-mb"};
+  const std::set<std::string> refused{"--events",    "--kinds",         "--between",
+                                      "--through",   "--region",        "--near",
+                                      "--radius",    "--between-boxes", "--feature-size",
+                                      "--budget-mb", "--light"};
   const std::set<std::string> obeyed{
       "--list",      "--seen-from", "--between-ends", "--crossed", "--threads",
       "--precision", "--budget",    "--format",       "--perturb", "--seed"};

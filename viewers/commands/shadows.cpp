@@ -142,19 +142,29 @@ std::vector<Receiver> receivers_of(const ShadowOptions& options, const Scene& sc
   std::vector<std::string> names = options.receivers;
   if (names.empty()) {
     for (const Object& object : scene.objects()) {
-      const bool shines = std::ranges::any_of(object.faces, [&](int f) {
+      const bool shines = std::ranges::all_of(object.faces, [&](int f) {
         return std::ranges::binary_search(light.faces, f);
       });
       if (!shines) names.push_back(object.name);
     }
   }
+  std::vector<std::uint8_t> two_sided(scene.faces().size(), 0);
+  for (const std::string& name : options.both_sides) {
+    for (const int f : scene.faces_named(name)) two_sided[f] = 1;
+  }
   std::vector<Receiver> receivers;
   for (const std::string& name : names) {
     Receiver front{name, scene.faces_named(name), true};
-    Receiver back{name + "/back", front.faces, false};
+    if (front.faces.empty()) {
+      throw UsageError(fmt::format("--receivers {}: no face of it with an area is left",
+                                   escaped_bytes(name)));
+    }
+    Receiver back{name + "/back", {}, false};
+    for (const int f : front.faces) {
+      if (two_sided[f] != 0) back.faces.push_back(f);
+    }
     receivers.push_back(std::move(front));
-    if (std::ranges::find(options.both_sides, name) != options.both_sides.end())
-      receivers.push_back(std::move(back));
+    if (!back.faces.empty()) receivers.push_back(std::move(back));
   }
   return receivers;
 }
