@@ -10,6 +10,14 @@ bool later(const LineCuts& cuts, const LineCut& x, const LineCut& y) {
   return cuts.compare(x, y) > 0;
 }
 
+// Towards a point.  For an eye on the scene a short way says the same as a long one and
+// meets the planes of fewer faces.
+ExactPoint short_way(const ExactPoint& from, const ExactPoint& to) {
+  ExactPoint way = exact_difference(to, from);
+  for (Rational& x : way) x *= Rational(0x1p-20);
+  return way;
+}
+
 }  // namespace
 
 SourceView::SourceView(const Question& question)
@@ -135,7 +143,7 @@ void SourceView::ask_star() {
     for (int i = 0; i < 3; ++i) middle[i] += scene_.exact(corners[k])[i];
   }
   for (Rational& x : middle) x /= 3;
-  any_hidden_ = star->blocked(exact_difference(middle, eye_->eye()), {});
+  any_hidden_ = star->blocked(short_way(eye_->eye(), middle), {});
 }
 
 // Some side of one of the two has all of the other on its outside; where lines are asked
@@ -280,7 +288,7 @@ std::array<bool, 2> SourceView::into_material(int line, const LineCuts& cuts,
   const ExactPoint left{-right[0], -right[1], -right[2]};
   const Rational middle = (cuts.exact(from) + cuts.exact(to)) / 2;
   const ExactPoint way =
-      exact_difference(along(scene_.exact(a), scene_.exact(b), middle), eye_->eye());
+      short_way(eye_->eye(), along(scene_.exact(a), scene_.exact(b), middle));
   return {question_.star->blocked(way, left), question_.star->blocked(way, right)};
 }
 
