@@ -60,17 +60,12 @@ class Cone {
 
 // The part of a face before the source's plane; sides: of its corners, some before the
 // plane and some beyond it.
-Blocker cut_face(const ViewScene& view, int face, const std::vector<Sign>& sides,
-                 int plane_face) {
-  const auto corners = view.scene().face_points(face);
+Blocker cut_face(const SourceScene& source, const SourcePlane& plane, int face,
+                 const std::vector<Sign>& sides) {
+  const auto corners = source.scene().scene().face_points(face);
   const auto n = static_cast<int>(corners.size());
   Blocker blocker{.face = face};
-  const auto crossing = [&](int p, int q) {
-    const ExactPoint x = view.exact(p), y = view.exact(q);
-    const Rational u = view.exact_plane_value(plane_face, x);
-    const Rational v = view.exact_plane_value(plane_face, y);
-    return along(x, y, quotient(u, u - v));
-  };
+  const auto crossing = [&](int p, int q) { return source.crossing(plane, p, q); };
   for (int k = 0; k < n; ++k) {
     const int next = (k + 1) % n;
     const bool goes_on = sides[next] != Sign::Negative;
@@ -113,7 +108,7 @@ std::vector<Blocker> find_blockers(const SourceScene& source, const SourcePlane&
       beyond |= sides.back() == Sign::Negative;
     }
     if (!before) return;
-    blockers.push_back(beyond ? cut_face(view, face, sides, plane.faces.front())
+    blockers.push_back(beyond ? cut_face(source, plane, face, sides)
                               : Blocker{.face = face});
   };
   view.silhouettes().face_tree().traverse(

@@ -153,4 +153,18 @@ void SourceScene::find_source_faces(SourcePlane& plane, int& numbers) const {
   numbers += n;
 }
 
+ExactPoint SourceScene::crossing(const SourcePlane& plane, int p, int q) const {
+  const std::array<int, 3> key{static_cast<int>(&plane - planes_.data()), p, q};
+  {
+    const std::scoped_lock lock(mutex_);
+    if (const auto it = crossings_.find(key); it != crossings_.end()) return it->second;
+  }
+  const ExactPoint x = scene_.exact(p), y = scene_.exact(q);
+  const Rational u = scene_.exact_plane_value(plane.faces.front(), x);
+  const Rational v = scene_.exact_plane_value(plane.faces.front(), y);
+  ExactPoint at = along(x, y, quotient(u, u - v));
+  const std::scoped_lock lock(mutex_);
+  return crossings_.emplace(key, std::move(at)).first->second;
+}
+
 }  // namespace sightline::internal

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <map>
+#include <mutex>
 #include <vector>
 
 #include "linespace/picture/view_scene.h"
@@ -29,7 +31,7 @@ struct SourcePlane {
   std::vector<Point> hull;
 };
 
-/// Immutable.  Keeps a reference to the scene.
+/// Immutable but for what it remembers.  Keeps a reference to the scene.
 class SourceScene {
  public:
   SourceScene(const Scene& scene, const LightSource& source, const Request& request);
@@ -41,6 +43,9 @@ class SourceScene {
     const Sign s = scene_.plane_side(plane.faces.front(), point);
     return plane.fronts.front() ? s : -s;
   }
+  /// Where the segment between two points on different sides of the plane crosses it.
+  /// Computed when it is first asked for.
+  [[nodiscard]] ExactPoint crossing(const SourcePlane& plane, int p, int q) const;
 
  private:
   void group_by_planes(const LightSource& source);
@@ -49,6 +54,8 @@ class SourceScene {
 
   ViewScene scene_;
   std::vector<SourcePlane> planes_;
+  mutable std::mutex mutex_;                                    // of what follows
+  mutable std::map<std::array<int, 3>, ExactPoint> crossings_;  // by plane and points
 };
 
 }  // namespace sightline::internal
