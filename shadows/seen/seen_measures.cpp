@@ -49,11 +49,22 @@ namespace {
 // Of the form factor's integral over what lies on the left of an edge.  The arc runs from
 // u to v; what the eye sees on the left of it lies on the right, seen from outside the
 // sphere of directions.
-long double lambert(const LongEigen& u, const LongEigen& v, const LongEigen& normal) {
-  const LongEigen across = u.cross(v);
+long double lambert(const LongEigen& u, const LongEigen& v, const LongEigen& across,
+                    const LongEigen& normal) {
   const long double length = across.norm();
   if (length == 0) return 0;
   return std::atan2(length, u.dot(v)) / length * normal.dot(across);
+}
+
+// The cross product of the unit vectors to two points of the picture.  From very near to
+// the line through them little of it is left, and it is computed exactly.
+LongEigen cross_of(const PicturePoint& p, const LongEigen& u, const PicturePoint& q,
+                   const LongEigen& v) {
+  constexpr long double kNearLine = 0x1p-20L;
+  const LongEigen across = u.cross(v);
+  if (across.norm() > kNearLine) return across;
+  const ExactPoint &x = p.exact(), &y = q.exact();
+  return long_eigen(exact_cross(x, y)) / (long_eigen(x).norm() * long_eigen(y).norm());
 }
 
 // With a step s of the eye the direction u of a fixed point of the edge's line, at the
@@ -88,7 +99,8 @@ SeenFormFactor seen_form_factor(const SourceView& view, const PlaneFrame& frame,
   std::vector<int> in_line;
   for (const SeenPart::Edge& e : part.edges) {
     const LongEigen &u = rays[e.from], &v = rays[e.to];
-    sum -= lambert(u, v, normal) / 2;
+    const LongEigen across = cross_of(part.points[e.from], u, part.points[e.to], v);
+    sum -= lambert(u, v, across, normal) / 2;
     if (std::ranges::count(e.lines, view.horizon_line()) > 0) continue;
     const bool single = std::ranges::all_of(e.lines, [&](int line) {
       return eye.scene().on_one_line(line, e.lines.front());
