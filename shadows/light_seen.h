@@ -56,8 +56,8 @@ struct Backprojection {
   /// where it differs from side to side.
   std::optional<Eigen::Vector3d> gradient;
   /// Where the point lies in one plane in which things are seen in line, and the gradient
-  /// differs on its two sides: both limits.  Where it lies in several such planes, neither
-  /// this nor the gradient is told.
+  /// differs on its two sides: both limits.  Where it lies in several such planes,
+  /// neither this nor the gradient is told.
   std::optional<std::array<Eigen::Vector3d, 2>> one_sided = std::nullopt;
   /// In a canonical order: two points see the source alike iff their boundaries have the
   /// same source faces and sides.

@@ -90,7 +90,8 @@ STYLE = """  circle { stroke: #16181f; stroke-width: 3; }
 
 
 def rounded(text, digits):
-    return re.sub(r"-?\d+\.\d+",
+    """Numbers with so many decimals at most; the version of XML stays what it is."""
+    return re.sub(r"(?<!version=\")-?\d+\.\d+",
                   lambda m: f"{float(m.group()):.{digits}f}".rstrip("0").rstrip("."),
                   text)
 
@@ -157,22 +158,28 @@ def alike(a, b):
     return all(abs(float(x) - float(y)) < 0.5 for x, y in pairs)
 
 
+def write_or_compare(drawn, check, command):
+    """Writes pictures, name and SVG each; or, to check, tells those that lie beside this
+    script otherwise.  The exit status."""
+    stale = []
+    for name, svg in drawn:
+        file = HERE / f"{name}.svg"
+        if not check:
+            file.write_text(svg, encoding="utf-8")
+        elif not file.exists() or not alike(svg, file.read_text(encoding="utf-8")):
+            stale.append(file.name)
+    for name in stale:
+        print(f"docs/pictures/{name} is not what `{command}` draws now", file=sys.stderr)
+    return 1 if stale else 0
+
+
 def main():
     program, options = sys.argv[1], sys.argv[2:]
     if options[:1] == ["--house"]:
         drawn = pictures_of_house(program, options[1])
     else:
         drawn = pictures(program)
-    stale = []
-    for name, svg in drawn:
-        file = HERE / f"{name}.svg"
-        if options != ["--check"]:
-            file.write_text(svg, encoding="utf-8")
-        elif not file.exists() or not alike(svg, file.read_text(encoding="utf-8")):
-            stale.append(file.name)
-    for name in stale:
-        print(f"docs/pictures/{name} is not what `look` draws now", file=sys.stderr)
-    return 1 if stale else 0
+    return write_or_compare(drawn, options == ["--check"], "look")
 
 
 if __name__ == "__main__":

@@ -16,7 +16,7 @@ import subprocess
 import sys
 import tempfile
 
-from point_view import HERE, alike, rounded
+from point_view import HERE, rounded, write_or_compare
 
 SCENES = HERE.parents[1] / "tests" / "data" / "shadows"
 
@@ -171,16 +171,7 @@ def pictures(program):
 
 def main():
     program, check = sys.argv[1], sys.argv[2:] == ["--check"]
-    stale = []
-    for name, svg in pictures(program):
-        file = HERE / f"{name}.svg"
-        if not check:
-            file.write_text(svg, encoding="utf-8")
-        elif not file.exists() or not alike(svg, file.read_text(encoding="utf-8")):
-            stale.append(file.name)
-    for name in stale:
-        print(f"docs/pictures/{name} is not what `shadows` draws now", file=sys.stderr)
-    return 1 if stale else 0
+    return write_or_compare(pictures(program), check, "shadows")
 
 
 if __name__ == "__main__":

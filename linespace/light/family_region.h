@@ -17,7 +17,8 @@ class FamilyRegion {
   /// `size` bounds the scene's coordinates.
   explicit FamilyRegion(double size) : pad_(0x1p-36 * size) {}
 
-  /// Of the lines between two positions, whole lines on both sides.
+  /// The region grows by the lines of the family between two positions, each without
+  /// ends.
   void add(const LineFamily& family, double from, double to);
   /// All lines lie in this plane.
   void set_plane(const Four<Approx>& plane);

@@ -54,11 +54,11 @@ class FamilyScan {
   const std::vector<ScannedPiece>& scan(const LineFamily& family,
                                         std::span<const FamilyContact> contacts,
                                         int farthest, const Four<Approx>* plane);
-  /// Of a family that is one line: whether it reaches the source past all contacts, and
-  /// no face's inside is in the way.
+  /// Asked of a family that is one line: it reaches the source past all contacts, and the
+  /// inside of no face is in its way.
   [[nodiscard]] bool reaches_freely(const LineFamily& family,
                                     std::span<const FamilyContact> contacts);
-  /// Of the last scan.
+  /// What the last scan found.
   [[nodiscard]] std::span<const ScannedPiece> pieces() const { return pieces_; }
 
  private:

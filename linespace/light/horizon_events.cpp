@@ -78,8 +78,12 @@ class HorizonFinder {
       low = low.cwiseMin(p);
       high = high.cwiseMax(p);
     }
-    // Far beyond rounding unless the two are next to each other in height.
-    const double margin = 1e-3 * (high - low).norm() + 1e-9 * (q - a.rounded).norm() +
+    // Wide, since what is let in costs time only: a share of the hull, a share of the way
+    // to q that is far above the 2^-50 of its roundings, and what the bounds on the two
+    // heights leave open of q's place.
+    constexpr double kOfHull = 0x1p-10, kOfWay = 0x1p-30;
+    const double margin = kOfHull * (high - low).norm() +
+                          kOfWay * (q - a.rounded).norm() +
                           (ha.e + hb.e) / std::abs(ha.v - hb.v) * (q - a.rounded).norm();
     return ((q - low).array() >= -margin).all() && ((q - high).array() <= margin).all();
   }

@@ -16,7 +16,7 @@ struct HorizonPlane {
   int facet;
   std::vector<int> faces;
 };
-/// Those whose planes cut the patch, so that it has points strictly on both sides.
+/// The horizon planes that cut the patch: it has points strictly on both sides of them.
 [[nodiscard]] std::vector<HorizonPlane> horizon_planes(
     const PatchSpace& at, std::span<const std::uint8_t> front,
     std::span<const std::uint8_t> back);

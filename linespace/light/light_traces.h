@@ -60,7 +60,8 @@ struct LightTrace {
     std::array<QuadraticRoot, 2> range;
     std::array<double, 2> rounded;
     std::array<CutCause, 2> causes;
-    /// Of a straight trace: its ends on the receiver, with weights other than 0.
+    /// The two ends of a straight trace on the receiver, with weights other than 0; of a
+    /// conic, nothing.
     std::array<Four<Ring>, 2> ends;
   };
   std::vector<Piece> pieces;

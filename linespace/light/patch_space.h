@@ -34,7 +34,8 @@ struct PatchSpace {
   const SourcePatch& patch;
   int number;
   std::vector<LightLine> sides;
-  /// Of the scene's points over the patch's plane.
+  /// By point of the scene: its height over the patch's plane (positive in front, up to
+  /// a factor), and the exact sign of that.
   std::vector<Approx> heights;
   std::vector<Sign> signs;
   std::vector<int> front_faces, front_edges;  ///< with a point in front, ascending

@@ -33,7 +33,8 @@ struct SourcePatch {
   std::vector<Side> sides;
   /// Ends of sides, and where sides cross; each once.
   std::vector<const LightPoint*> corners;
-  /// Of a convex polygon that contains all of the patch: scene points, counter-clockwise.
+  /// Corners of a convex polygon that contains all of the patch: scene points,
+  /// counter-clockwise.
   std::vector<Point> hull;
   std::deque<LightPoint> points;  ///< what the pointers above point to
 

@@ -25,7 +25,7 @@ class SourceSight {
   [[nodiscard]] bool sees_source(int edge) const { return sees_source_[edge] != 0; }
   /// Edges, ascending, that some line may graze on its way from the edge to the source.
   [[nodiscard]] const std::vector<int>& nearer(int edge) const { return nearer_[edge]; }
-  /// The same of a point.
+  /// Not certain that one occluder hides all of the source from the point.
   [[nodiscard]] bool sees_source(const LightPoint& p) const;
   /// Some line through the point and the edge may be free between them.
   [[nodiscard]] bool may_see(const LightPoint& p, int edge) const;

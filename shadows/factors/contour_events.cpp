@@ -8,6 +8,10 @@
 namespace sightline::internal {
 namespace {
 
+// In the frame's units, in which coordinates are about 1.  Far above what rounding does
+// (some 1e-15 each): an event too many costs time, one too few hides a kink.
+constexpr double kLoose = 1e-9;
+
 using Vector = Eigen::Vector3d;
 
 struct Side {
@@ -41,10 +45,9 @@ struct Elements {
     }
   }
   void add_corner(int plate, const Vector& a) {
-    constexpr double kSlack = 1e-10;
     if (std::ranges::any_of(corners, [&](const Corner& c) { return c.at == a; })) return;
     if (std::ranges::any_of(g.shaft, [&](const Eigen::Vector4d& plane) {
-          return plane.head<3>().dot(a) + plane[3] > kSlack;
+          return plane.head<3>().dot(a) + plane[3] > kShaftSlack;
         })) {
       return;
     }
@@ -60,7 +63,7 @@ std::vector<Vector> in_space(const PlanePolygon& polygon) {
 
 /// Of a side's two ends, by how far they are beside a line: the line passes between them.
 bool straddles(double from, double to) {
-  const double slack = 1e-9 * (std::abs(from) + std::abs(to));
+  const double slack = kLoose * (std::abs(from) + std::abs(to));
   return std::min(from, to) <= slack && std::max(from, to) >= -slack;
 }
 
@@ -82,15 +85,13 @@ class Relevance {
   /// The line through q in that direction.
   [[nodiscard]] bool holds(const Vector& q, Vector along) const {
     if (along.z() < 0) along = -along;
-    if (!(along.z() > 0)) return q.z() <= kSlack;
+    if (!(along.z() > 0)) return q.z() <= kLoose;
     const Vector x = q - (q.z() / along.z()) * along;
     return leaves_sender(x) && passes_beside(along) &&
            (piece_.on_target || meets_target(q, along));
   }
 
  private:
-  static constexpr double kSlack = 1e-9;
-
   [[nodiscard]] bool leaves_sender(const Vector& x) const {
     const PlanePolygon& p = g_.sender;
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -98,7 +99,7 @@ class Relevance {
       const FlatPoint& b = p[i + 1 < p.size() ? i + 1 : 0];
       const double ux = b.x - a.x, uy = b.y - a.y;
       const double beside = ux * (x.y() - a.y) - uy * (x.x() - a.x);
-      if (beside < -kSlack * (std::abs(ux) + std::abs(uy))) return false;
+      if (beside < -kLoose * (std::abs(ux) + std::abs(uy))) return false;
     }
     return true;
   }
@@ -106,8 +107,8 @@ class Relevance {
     bool plus = false, minus = false;
     for (const Vector& n : piece_.attached) {
       const double side = n.dot(along);
-      plus = plus || side > kSlack * along.norm();
-      minus = minus || side < -kSlack * along.norm();
+      plus = plus || side > kLoose * along.norm();
+      minus = minus || side < -kLoose * along.norm();
     }
     return !(plus && minus);
   }
@@ -119,7 +120,7 @@ class Relevance {
     for (std::size_t i = 0; i < t.corners.size(); ++i) {
       const Vector& a = t.corners[i];
       const Vector u = t.corners[i + 1 < t.corners.size() ? i + 1 : 0] - a;
-      if (t.normal.dot(u.cross(y - a)) < -kSlack * u.norm()) return false;
+      if (t.normal.dot(u.cross(y - a)) < -kLoose * u.norm()) return false;
     }
     return true;
   }
@@ -164,7 +165,6 @@ class TripleEvents {
  private:
   /// An upper bound for time, in crowds of blockers.
   static constexpr int kMostTriples = 20000;
-  static constexpr double kSlack = 1e-9;
 
   [[nodiscard]] Vector at(double s) const { return piece_.start + s * piece_.direction; }
   [[nodiscard]] bool has_ends(std::size_t f) const { return f < sides_.size(); }
@@ -193,8 +193,8 @@ class TripleEvents {
       const Vector n = normal(f, q);
       for (const Vector* v : {&sides_[g].a, &sides_[g].b}) {
         const double value = n.dot(*v - q);
-        plus = plus || value >= -kSlack;
-        minus = minus || value <= kSlack;
+        plus = plus || value >= -kLoose;
+        minus = minus || value <= kLoose;
       }
     }
     return plus && minus;
@@ -257,7 +257,9 @@ class TripleEvents {
 /// Ascending, inside the piece, none twice.
 std::vector<double> sorted(std::vector<double> events, double length) {
   std::ranges::sort(events);
-  const double apart = 1e-14 * length;
+  // Two events nearer than some dozens of roundings of a position are one.
+  constexpr double kOneEvent = 1e-14;
+  const double apart = kOneEvent * length;
   std::vector<double> result;
   for (const double s : events) {
     if (s > apart && s < length - apart &&

@@ -25,7 +25,9 @@ std::optional<int> turn(const Point& a, const Point& b, const Point& c,
   if (cross == Eigen::Vector3d::Zero()) return 0;
   const double value = normal.dot(cross);
   const double size = normal.norm() * (b - a).norm() * (c - b).norm();
-  if (std::abs(value) < 1e-12 * size) return std::nullopt;
+  // A thousand times what the roundings of two differences and two products do.
+  constexpr double kTurnIsSure = 1e-12;
+  if (std::abs(value) < kTurnIsSure * size) return std::nullopt;
   return value > 0 ? 1 : -1;
 }
 

@@ -129,9 +129,11 @@ std::vector<PointList> CoplanarCover::uncovered(const PointList& polygon) const 
     }
     open.remove(sides);
   }
+  // Less than what rounding leaves along a cut, some dozens of 2^-53 of the whole.
+  constexpr double kSliver = 1e-14;
   std::vector<PointList> result;
   for (std::size_t i = 0; i < open.size(); ++i) {
-    if (doubled_area(open[i]) < 1e-14 * whole) continue;
+    if (doubled_area(open[i]) < kSliver * whole) continue;
     PointList part;
     for (const FlatPoint& p : open[i]) part.push_back(projection.up(p));
     result.push_back(std::move(part));

@@ -17,6 +17,7 @@ double scaled_sum(const FormFactorRow& row, const std::vector<double>& d, std::s
 /// Damped: half of what a row lacks is made up by itself, since its partners move too.
 std::vector<double> scales(const FormFactors& factors) {
   constexpr int kMostSweeps = 200;
+  constexpr double kAddsUp = 1e-15;  // some units of the last place of a row's sum
   std::vector<double> d(factors.rows.size(), 1);
   for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
     double largest = 0;
@@ -26,7 +27,7 @@ std::vector<double> scales(const FormFactors& factors) {
       largest = std::max(largest, std::abs(sum - 1));
       d[i] /= std::sqrt(sum);
     }
-    if (largest < 1e-15) break;
+    if (largest < kAddsUp) break;
   }
   return d;
 }

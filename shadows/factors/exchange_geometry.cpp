@@ -364,11 +364,10 @@ void find_shaft(ExchangeGeometry& g) {
 
 std::optional<std::array<double, 2>> ExchangeGeometry::in_shaft(const Vector& a,
                                                                 const Vector& b) const {
-  constexpr double kSlack = 1e-10;
   double from = 0, to = 1;
   for (const Eigen::Vector4d& plane : shaft) {
-    const double ha = plane.head<3>().dot(a) + plane[3] - kSlack;
-    const double hb = plane.head<3>().dot(b) + plane[3] - kSlack;
+    const double ha = plane.head<3>().dot(a) + plane[3] - kShaftSlack;
+    const double hb = plane.head<3>().dot(b) + plane[3] - kShaftSlack;
     if (ha >= 0 && hb >= 0) return std::nullopt;
     if (ha > 0) from = std::max(from, ha / (ha - hb));
     if (hb > 0) to = std::min(to, ha / (ha - hb));

@@ -50,6 +50,10 @@ struct ContourPiece {
   std::vector<double> breaks;
 };
 
+/// What lies so far outside of the shaft counts as inside, in the frame's units: far
+/// above rounding, since a blocker too many costs time only.
+inline constexpr double kShaftSlack = 1e-10;
+
 struct ExchangeGeometry {
   double unit = 1;              ///< scene units in a unit of the frame
   PlanePolygon sender;          ///< in z = 0, before the target's front

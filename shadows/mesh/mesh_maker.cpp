@@ -69,12 +69,11 @@ class MeshMaker {
 
   MeshAndAreas make() {
     ask_faces();
-    name_edges();
-    join_faces();
-    join_edges();
-    add_faces();
-    add_edges();
     count_umbrae();
+    drop_edges();
+    add_faces();
+    find_chains();
+    add_edges();
     return std::move(out_);
   }
 
@@ -107,65 +106,50 @@ class MeshMaker {
 
   // Of all that runs along an edge the first kind counts; its generators are the union of
   // those of that kind.
-  void name_edges() {
-    for (int e = 0; e < map_.edge_count(); ++e) {
-      Name name{ShadowEdgeKind::Boundary, {}};
-      if (!map_.on_outline(e)) {
-        name.kind = ShadowEdgeKind::EEE;
-        for (const int c : map_.curves(e))
-          name.kind = std::min(name.kind, curves_->names[c].kind);
-        for (const int c : map_.curves(e)) {
-          if (curves_->names[c].kind != name.kind) continue;
-          const auto& more = curves_->names[c].generators;
-          name.generators.insert(name.generators.end(), more.begin(), more.end());
-        }
-        std::ranges::sort(name.generators);
-        name.generators.erase(std::ranges::unique(name.generators).begin(),
-                              name.generators.end());
-      }
-      names_.push_back(std::move(name));
+  [[nodiscard]] Name name_of(const PlanarMap& map, int e) const {
+    if (map.on_outline(e)) return {ShadowEdgeKind::Boundary, {}};
+    Name name{ShadowEdgeKind::EEE, {}};
+    for (const int c : map.curves(e))
+      name.kind = std::min(name.kind, curves_->names[c].kind);
+    for (const int c : map.curves(e)) {
+      if (curves_->names[c].kind == name.kind) add(name, curves_->names[c].generators);
     }
+    return name;
+  }
+  static void add(Name& name, const std::vector<std::string>& generators) {
+    name.generators.insert(name.generators.end(), generators.begin(), generators.end());
+    std::ranges::sort(name.generators);
+    name.generators.erase(std::ranges::unique(name.generators).begin(),
+                          name.generators.end());
   }
 
-  [[nodiscard]] int structure_at(int half_edge) const {
-    const int f = map_.face(half_edge);
-    return f == PlanarMap::kOutside ? -1 : seen_[f].structure;
-  }
-
-  void join_faces() {
-    faces_.emplace(seen_.size());
-    kept_.assign(map_.edge_count(), true);
+  // The mesh is the map without the edges along which nothing changes.
+  void drop_edges() {
+    std::vector<int> dropped;
     for (int e = 0; e < map_.edge_count(); ++e) {
-      if (is_always_edge(names_[e].kind) ||
-          structure_at(2 * e) != structure_at(2 * e + 1))
-        continue;
-      kept_[e] = false;
-      faces_->join(map_.face(2 * e), map_.face(2 * e + 1));
+      if (map_.on_outline(e) || is_always_edge(name_of(map_, e).kind)) continue;
+      const int left = map_.face(2 * e), right = map_.face(2 * e + 1);
+      if (seen_[left].structure == seen_[right].structure) dropped.push_back(e);
     }
+    ReducedMap reduced = map_.without(dropped);
+    mesh_ = std::move(reduced.map);
+    some_face_.assign(mesh_->face_count(), -1);
+    for (int f = map_.face_count(); f-- > 0;) some_face_[reduced.face_of[f]] = f;
+    for (int e = 0; e < mesh_->edge_count(); ++e) names_.push_back(name_of(*mesh_, e));
   }
 
   // Two edges that end at a vertex where nothing else does are one, if they are of one
-  // kind and go on straight or along one curve.
-  void join_edges() {
-    edges_.emplace(map_.edge_count());
-    at_vertex_.resize(map_.vertex_count());
-    for (int e = 0; e < map_.edge_count(); ++e) {
-      if (!kept_[e]) continue;
-      at_vertex_[map_.origin(2 * e)].push_back(2 * e);
-      at_vertex_[map_.origin(2 * e + 1)].push_back(2 * e + 1);
-    }
-    inner_.assign(map_.vertex_count(), true);
-    for (int v = 0; v < map_.vertex_count(); ++v) {
-      const auto& here = at_vertex_[v];
-      if (here.empty()) continue;
-      inner_[v] = here.size() == 2 && goes_on(here[0] / 2, here[1] / 2);
-      if (inner_[v]) edges_->join(here[0] / 2, here[1] / 2);
+  // kind and go on straight or along one curve, by whatever generators.
+  void find_chains() {
+    for (int v = 0; v < mesh_->vertex_count(); ++v) {
+      const auto star = mesh_->star(v);
+      inner_.push_back(star.size() == 2 && goes_on(star[0] / 2, star[1] / 2));
     }
   }
 
   [[nodiscard]] bool goes_on(int e, int f) const {
     return names_[e].kind == names_[f].kind &&
-           map_.implicit_form(e) == map_.implicit_form(f);
+           mesh_->implicit_form(e) == mesh_->implicit_form(f);
   }
 
   [[nodiscard]] bool is_away(const PlanePoint& p) const {
@@ -187,107 +171,85 @@ class MeshMaker {
   }
 
   void add_faces() {
-    number_.assign(seen_.size(), -1);
-    const auto& outline = plane_->outline();
-    double size = 0;
-    for (const auto& ring : outline) {
-      for (const PlanePoint& p : ring) {
-        size = std::max({size, std::abs(nearest_double(p[0] - outline[0][0][0])),
-                         std::abs(nearest_double(p[1] - outline[0][0][1]))});
-      }
+    for (int f = 0; f < mesh_->face_count(); ++f) {
+      const FaceSeen& seen = seen_[some_face_[f]];
+      const ShadowMesh::Face face{
+          seen.shadow, seen.structure, mesh_->area(f) * plane_->area_factor(),
+          seen.shadow == ShadowClass::Umbra && is_away(seen.inside),
+          rounded(plane_->lift(seen.inside))};
+      out_.areas[static_cast<int>(face.shadow)] += face.area;
+      if (face.away) out_.away_area += face.area;
+      out_.mesh.faces.push_back(face);
     }
-    for (int f = 0; f < map_.face_count(); ++f) {
-      const int root = faces_->root(f);
-      const double area = map_.area(f) * plane_->area_factor();
-      if (root == f) {
-        number_[f] = static_cast<int>(out_.mesh.faces.size());
-        const ExactPoint inside = plane_->lift(seen_[f].inside);
-        const bool away =
-            seen_[f].shadow == ShadowClass::Umbra && is_away(seen_[f].inside);
-        out_.mesh.faces.push_back(
-            {seen_[f].shadow, seen_[f].structure, 0, away, rounded(inside)});
-      } else {
-        number_[f] = number_[root];
-      }
-      ShadowMesh::Face& face = out_.mesh.faces[number_[f]];
-      face.area += area;
-      out_.areas[static_cast<int>(face.shadow)] += area;
-      if (face.away) out_.away_area += area;
-    }
+    for (int v = 0; v < mesh_->vertex_count(); ++v) number_.push_back(-1);
     // planar_map.h: some 1e-15 of the square of the size for each edge of a face.
+    const double size = plane_->size();
     out_.error_bound =
-        4e-15 * size * size * plane_->area_factor() * map_.half_edge_count();
+        4e-15 * size * size * plane_->area_factor() * mesh_->half_edge_count();
   }
 
-  // From each end of a chain of the map's edges along it.
+  // From each end of a chain of the map's edges along it; then the closed ones.
   void add_edges() {
-    vertex_number_.assign(map_.vertex_count(), -1);
-    std::vector<bool> done(map_.edge_count(), false);
-    const auto begin_at = [&](int h) {
-      if (!done[h / 2]) add_edge(h, done);
-    };
-    for (int v = 0; v < map_.vertex_count(); ++v) {
+    std::vector<bool> done(mesh_->edge_count(), false);
+    for (int v = 0; v < mesh_->vertex_count(); ++v) {
       if (inner_[v]) continue;
-      for (const int h : at_vertex_[v]) begin_at(h);
+      for (const int h : mesh_->star(v)) {
+        if (!done[h / 2]) add_edge(h, done);
+      }
     }
-    for (int e = 0; e < map_.edge_count(); ++e) {  // closed curves
-      if (kept_[e]) begin_at(2 * e);
+    for (int e = 0; e < mesh_->edge_count(); ++e) {
+      if (!done[e]) add_edge(2 * e, done);
     }
   }
 
   void add_edge(int first, std::vector<bool>& done) {
     ShadowMesh::Edge edge;
-    edge.kind = names_[first / 2].kind;
-    edge.left = face_number(first);
-    edge.right = face_number(first ^ 1);
-    if (edge.kind != ShadowEdgeKind::Boundary &&
-        structure_at(first) != structure_at(first ^ 1))
-      edge.order = order_of(edge.kind);
-    const auto conic = map_.implicit_form(first / 2);
+    edge.left = mesh_->face(first);
+    edge.right = mesh_->face(first ^ 1);
+    const auto conic = mesh_->implicit_form(first / 2);
     for (int i = 0; i < 6; ++i) edge.conic[i] = nearest_double(conic[i]);
-    edge.ends[0] = vertex(map_.origin(first));
+    edge.ends[0] = vertex(mesh_->origin(first));
+    Name name{names_[first / 2].kind, {}};
     int h = first;
     while (true) {
       done[h / 2] = true;
-      const auto& generators = names_[h / 2].generators;
-      edge.generators.insert(edge.generators.end(), generators.begin(), generators.end());
+      add(name, names_[h / 2].generators);
       append(h, edge.polyline);
-      const int v = map_.target(h);
+      const int v = mesh_->target(h);
       if (!inner_[v]) break;
-      const auto& here = at_vertex_[v];
-      h = here[0] == (h ^ 1) ? here[1] : here[0];
-      if (done[h / 2]) break;
+      const auto star = mesh_->star(v);
+      const int next = star[0] == (h ^ 1) ? star[1] : star[0];
+      if (done[next / 2]) break;
+      h = next;
     }
-    std::ranges::sort(edge.generators);
-    edge.generators.erase(std::ranges::unique(edge.generators).begin(),
-                          edge.generators.end());
-    edge.ends[1] = vertex(map_.target(h));
+    edge.ends[1] = vertex(mesh_->target(h));
+    edge.kind = name.kind;
+    edge.generators = std::move(name.generators);
+    const bool changes = structure_at(edge.left) != structure_at(edge.right);
+    if (edge.kind != ShadowEdgeKind::Boundary && changes)
+      edge.order = order_of(edge.kind);
     out_.mesh.edges.push_back(std::move(edge));
   }
 
-  void append(int h, std::vector<Eigen::Vector2d>& polyline) const {
-    const int e = h / 2;
-    std::vector<Eigen::Vector2d> points;
-    constexpr int kSteps = 8;
-    const int steps = map_.straight(e) ? 1 : kSteps;
-    for (int i = 0; i <= steps; ++i)
-      points.push_back(map_.point(e, static_cast<double>(i) / steps));
-    if (h % 2 == 1) std::ranges::reverse(points);
-    polyline.insert(polyline.end(), points.begin() + (polyline.empty() ? 0 : 1),
-                    points.end());
+  [[nodiscard]] int structure_at(int face) const {
+    return face < 0 ? -1 : out_.mesh.faces[face].structure;
   }
 
-  [[nodiscard]] int face_number(int half_edge) const {
-    const int f = map_.face(half_edge);
-    return f == PlanarMap::kOutside ? -1 : number_[f];
+  void append(int h, std::vector<Eigen::Vector2d>& polyline) const {
+    constexpr int kSteps = 8;  // of a conic's piece
+    const int e = h / 2, steps = mesh_->straight(e) ? 1 : kSteps;
+    for (int i = polyline.empty() ? 0 : 1; i <= steps; ++i) {
+      const double t = static_cast<double>(i) / steps;
+      polyline.push_back(mesh_->point(e, h % 2 == 0 ? t : 1 - t));
+    }
   }
 
   int vertex(int v) {
-    if (vertex_number_[v] < 0) {
-      vertex_number_[v] = static_cast<int>(out_.mesh.vertices.size());
-      out_.mesh.vertices.push_back(map_.vertex(v).at);
+    if (number_[v] < 0) {
+      number_[v] = static_cast<int>(out_.mesh.vertices.size());
+      out_.mesh.vertices.push_back(mesh_->vertex(v).at);
     }
-    return vertex_number_[v];
+    return number_[v];
   }
 
   // Umbra goes on across an edge whose points are umbra, too.
@@ -298,7 +260,8 @@ class MeshMaker {
       if (f == PlanarMap::kOutside || g == PlanarMap::kOutside || f == g) continue;
       if (seen_[f].shadow != ShadowClass::Umbra || seen_[g].shadow != ShadowClass::Umbra)
         continue;
-      if (!kept_[e] || ask(map_.exact_point(e)).shadow == ShadowClass::Umbra)
+      const bool everywhere = !is_always_edge(name_of(map_, e).kind);
+      if (everywhere || ask(map_.exact_point(e)).shadow == ShadowClass::Umbra)
         parts.join(f, g);
     }
     for (int f = 0; f < map_.face_count(); ++f) {
@@ -313,14 +276,14 @@ class MeshMaker {
   const BackprojectionIndex* light_;
   const Request* request_;
   StructureTable* structures_;
-  PlanarMap map_;
-  std::vector<FaceSeen> seen_;  // by face of the map
-  std::vector<Name> names_;     // by edge of the map
-  std::vector<bool> kept_;
-  std::optional<Classes> faces_, edges_;
-  std::vector<std::vector<int>> at_vertex_;  // half-edges that are kept
-  std::vector<bool> inner_;  // vertices at which nothing that is kept ends
-  std::vector<int> number_, vertex_number_;
+  PlanarMap map_;               // of all curves
+  std::vector<FaceSeen> seen_;  // by face of map_
+  // The map without edges along which nothing changes, and of that:
+  std::optional<PlanarMap> mesh_;
+  std::vector<int> some_face_;  // by face, one of map_ that is a part of it
+  std::vector<Name> names_;     // by edge
+  std::vector<bool> inner_;     // by vertex: an edge of the answer goes on there
+  std::vector<int> number_;     // by vertex, in the answer; -1 not yet
   MeshAndAreas out_;
 };
 

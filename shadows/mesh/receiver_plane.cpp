@@ -67,6 +67,19 @@ double ReceiverPlane::area() const {
   return std::abs(nearest_double(twice)) / 2 * area_factor_;
 }
 
+double ReceiverPlane::size() const {
+  PlanePoint low = outline_[0][0], high = low;
+  for (const auto& ring : outline_) {
+    for (const PlanePoint& p : ring) {
+      for (int i = 0; i < 2; ++i) {
+        low[i] = std::min(low[i], p[i]);
+        high[i] = std::max(high[i], p[i]);
+      }
+    }
+  }
+  return std::max(nearest_double(high[0] - low[0]), nearest_double(high[1] - low[1]));
+}
+
 ShadowMesh::Frame ReceiverPlane::frame() const {
   ShadowMesh::Frame frame{Point::Zero(), Eigen::Vector3d::Zero(),
                           Eigen::Vector3d::Zero()};

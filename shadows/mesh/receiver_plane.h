@@ -24,6 +24,8 @@ class ReceiverPlane {
   [[nodiscard]] double area_factor() const { return area_factor_; }
   /// Of the outline, scene units squared.
   [[nodiscard]] double area() const;
+  /// The larger extent of the outline in the two coordinates.
+  [[nodiscard]] double size() const;
   [[nodiscard]] ShadowMesh::Frame frame() const;
 
   [[nodiscard]] ExactPoint lift(const PlanePoint& p) const;

@@ -6,10 +6,10 @@
 #include <map>
 #include <numeric>
 
+#include "linespace/picture/classes.h"
 #include "linespace/work/stop_scope.h"
 #include "shadows/planar/arcs/candidate_pairs.h"
 #include "shadows/planar/half_edge_order.h"
-#include "linespace/picture/classes.h"
 
 namespace sightline::internal {
 namespace {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <numeric>
 
+#include "linespace/picture/classes.h"
 #include "linespace/scene.h"
 #include "linespace/work/stop_scope.h"
 #include "shadows/planar/scan_line.h"
-#include "linespace/picture/classes.h"
 
 namespace sightline::internal {
 namespace {
@@ -194,9 +194,9 @@ class FaceFinder {
   PlanarData& map_;
   Classes components_;
   std::vector<int> all_edges_;
-  std::vector<int> cycle_;            // of a half-edge
-  std::vector<int> first_;            // half-edge of a cycle
-  std::vector<char> outward_;         // of a cycle: it faces the outside of its component
+  std::vector<int> cycle_;          // of a half-edge
+  std::vector<int> first_;          // half-edge of a cycle
+  std::vector<char> outward_;       // of a cycle: it faces the outside of its component
   std::unique_ptr<Classes> faces_;  // of cycles, and the plane
 };
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
+#include "linespace/picture/classes.h"
 #include "linespace/scene.h"
 #include "shadows/planar/map_faces.h"
 #include "shadows/planar/planar_map.h"
-#include "linespace/picture/classes.h"
 
 namespace sightline::internal {
 namespace {

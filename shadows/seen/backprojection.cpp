@@ -184,7 +184,8 @@ class Asker {
   EyeStar star_;
   std::optional<Horizon> horizon_;
   LongEigen normal_ = LongEigen::Zero();
-  Backprojection seen_{ShadowClass::Umbra, 0, std::nullopt, std::nullopt, std::nullopt, {}};
+  Backprojection seen_{ShadowClass::Umbra, 0, std::nullopt, std::nullopt,
+                       std::nullopt,       {}};
   double facing_ = 0, area_ = 0, factor_ = 0;
   std::optional<Eigen::Vector3d> gradient_ = Eigen::Vector3d::Zero().eval();
   bool any_seen_ = false, any_hidden_ = false;
@@ -203,8 +204,7 @@ Backprojection BackprojectionIndex::from(const ShadowPoint& point,
                                          const BackprojectionOptions& options) const {
   Asker asker(impl_->source, impl_->areas, point, options);
   Backprojection seen = asker.ask();
-  if (!options.gradient || !point.normal || asker.events().normals().empty())
-    return seen;
+  if (!options.gradient || !point.normal || asker.events().normals().empty()) return seen;
   seen.gradient.reset();
   if (asker.events().normals().size() > 1) return seen;
   // To both sides of the plane, within the surface.
@@ -213,8 +213,8 @@ Backprojection BackprojectionIndex::from(const ShadowPoint& point,
   ExactPoint way;
   for (int i = 0; i < 3; ++i) way[i] = g[i] - along * n[i];
   if (way == ExactPoint{}) return seen;
-  const double distance = (impl_->source.planes().front().hull.front() -
-                           Point(rounded(asker.at()))).norm();
+  const double distance =
+      (impl_->source.planes().front().hull.front() - Point(rounded(asker.at()))).norm();
   const Rational step(kBeside * distance / rounded(way).norm());
   std::array<Eigen::Vector3d, 2> limits;
   for (const int side : {0, 1}) {

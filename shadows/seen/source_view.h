@@ -61,7 +61,6 @@ class SourceView {
     std::array<int, 2> source{}, hidden{}, own{};
   };
 
-  void prepare(const Question& question);
   void add_horizon(std::vector<ExactPoint>& points,
                    std::vector<std::array<int, 2>>& lines);
   [[nodiscard]] bool horizon_hides_all() const;

@@ -7,30 +7,16 @@
 
 #include "shadows/point_form_factor.h"
 #include "tests/support/add_box.h"
+#include "tests/support/add_polygons.h"
 
 namespace sightline {
 namespace {
 
 using testing::add_box;
-
-// A group of one polygon.
-void add_polygon(PolygonSoup& soup, const char* name, const std::vector<Point>& corners) {
-  std::vector<int> polygon;
-  for (const Point& p : corners) {
-    polygon.push_back(static_cast<int>(soup.vertices.size()));
-    soup.vertices.push_back(p);
-  }
-  soup.groups.push_back({name, {static_cast<int>(soup.polygons.size())}});
-  soup.polygons.push_back(polygon);
-}
+using testing::add_polygons;
 
 // A square of side 2 that shines down.
-void add_lamp(PolygonSoup& soup, double height) {
-  add_polygon(soup, "lamp",
-              {{-1, -1, height}, {-1, 1, height}, {1, 1, height}, {1, -1, height}});
-}
-
-const std::array<Point, 4> kLamp{Point{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}};
+const std::vector<Point> kLamp{{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}};
 
 struct Lit {
   explicit Lit(PolygonSoup soup, const std::vector<std::string>& light = {"lamp"})
@@ -44,7 +30,7 @@ struct Lit {
 
 TEST(Backprojection, OpenLampIsLit) {
   PolygonSoup soup;
-  add_lamp(soup, 4);
+  add_polygons(soup, "lamp", {kLamp});
   const Lit lit(soup);
   const Backprojection seen = lit.at({0.5, 2, 0});
   EXPECT_EQ(seen.shadow, ShadowClass::Lit);
@@ -59,7 +45,7 @@ TEST(Backprojection, OpenLampIsLit) {
 
 TEST(Backprojection, BoxHidesAPart) {
   PolygonSoup soup;
-  add_lamp(soup, 4);
+  add_polygons(soup, "lamp", {kLamp});
   add_box(soup, "box", {-8, -8, 1}, {0, 8, 2});
   const Lit lit(soup);
   // Below its middle: umbra; to the right: half of the lamp, for x = 0 runs under the
@@ -83,9 +69,9 @@ TEST(Backprojection, BoxHidesAPart) {
 
 TEST(Backprojection, GradientEqualsDifferences) {
   PolygonSoup soup;
-  add_lamp(soup, 4);
+  add_polygons(soup, "lamp", {kLamp});
   add_box(soup, "box", {-0.5, -0.25, 1}, {0.5, 0.75, 2});
-  add_polygon(soup, "sheet", {{0.5, -1, 3}, {1, 0.5, 2.5}, {2, -1, 3}});
+  add_polygons(soup, "sheet", {{{0.5, -1, 3}, {1, 0.5, 2.5}, {2, -1, 3}}});
   const Lit lit(soup);
   const Point p{0.3, -0.4, 0.125};
   const Backprojection seen = lit.at(p);
@@ -107,7 +93,7 @@ TEST(Backprojection, GradientHasTwoSidesInThePlaneOfAFace) {
   // In the plane x = 1/2 of the box's side: towards smaller x the lower edge of that side
   // hides, towards larger x the upper one.
   PolygonSoup soup;
-  add_lamp(soup, 4);
+  add_polygons(soup, "lamp", {kLamp});
   add_box(soup, "box", {-8, -8, 1}, {0.5, 8, 2});
   const Lit lit(soup);
   const Backprojection seen = lit.at({0.5, 0.25, 0});
@@ -130,10 +116,10 @@ TEST(Backprojection, GradientHasTwoSidesInThePlaneOfAFace) {
 
 TEST(Backprojection, HoleOfNextToNothingIsPenumbra) {
   PolygonSoup soup;
-  add_lamp(soup, 4);
+  add_polygons(soup, "lamp", {kLamp});
   const double gap = 0x1p-69;
-  add_polygon(soup, "left", {{-9, -9, 2}, {0, -9, 2}, {0, 9, 2}, {-9, 9, 2}});
-  add_polygon(soup, "right", {{gap, -9, 2}, {9, -9, 2}, {9, 9, 2}, {gap, 9, 2}});
+  add_polygons(soup, "left", {{{-9, -9, 2}, {0, -9, 2}, {0, 9, 2}, {-9, 9, 2}}});
+  add_polygons(soup, "right", {{{gap, -9, 2}, {9, -9, 2}, {9, 9, 2}, {gap, 9, 2}}});
   const Lit lit(soup);
   const Backprojection seen = lit.at({0, 0, 0});
   EXPECT_EQ(seen.shadow, ShadowClass::Penumbra);
@@ -146,7 +132,7 @@ TEST(Backprojection, HoleOfNextToNothingIsPenumbra) {
 
 TEST(Backprojection, HorizonCutsTheLamp) {
   PolygonSoup soup;
-  add_lamp(soup, 4);
+  add_polygons(soup, "lamp", {kLamp});
   const Lit lit(soup);
   // Below the horizon of a normal along x is what lies at x < 0.
   const Backprojection seen =
@@ -160,7 +146,7 @@ TEST(Backprojection, HorizonCutsTheLamp) {
 
 TEST(Backprojection, BlockerThatCutsTheLamp) {
   PolygonSoup soup;
-  add_lamp(soup, 4);
+  add_polygons(soup, "lamp", {kLamp});
   add_box(soup, "box", {-0.5, -0.5, 3}, {0.5, 0.5, 5});
   const Lit lit(soup);
   const Backprojection seen = lit.at({0, 0, 0});
@@ -177,8 +163,8 @@ TEST(Backprojection, BlockerThatCutsTheLamp) {
 
 TEST(Backprojection, PartsOfAWallCountOnceAndTheirJointsAreNoSides) {
   PolygonSoup soup;
-  add_polygon(soup, "a", {{-1, -1, 4}, {-1, 1, 4}, {0, 1, 4}, {0, -1, 4}});
-  add_polygon(soup, "b", {{-0.5, -1, 4}, {-0.5, 1, 4}, {1, 1, 4}, {1, -1, 4}});
+  add_polygons(soup, "a", {{{-1, -1, 4}, {-1, 1, 4}, {0, 1, 4}, {0, -1, 4}}});
+  add_polygons(soup, "b", {{{-0.5, -1, 4}, {-0.5, 1, 4}, {1, 1, 4}, {1, -1, 4}}});
   const Lit lit(soup, {"a", "b"});
   const Backprojection seen = lit.at({0.5, 2, 0});
   EXPECT_EQ(seen.shadow, ShadowClass::Lit);

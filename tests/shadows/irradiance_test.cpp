@@ -6,27 +6,14 @@
 #include <random>
 
 #include "tests/support/add_box.h"
+#include "tests/support/add_polygons.h"
 
 namespace sightline {
 namespace {
 
-void add_polygon(PolygonSoup& soup, const char* name, const std::vector<Point>& corners) {
-  std::vector<int> polygon;
-  for (const Point& p : corners) {
-    polygon.push_back(static_cast<int>(soup.vertices.size()));
-    soup.vertices.push_back(p);
-  }
-  soup.groups.push_back({name, {static_cast<int>(soup.polygons.size())}});
-  soup.polygons.push_back(polygon);
-}
-
-// A square of side 2 that shines down from a height of 4 onto a square of side 16.
-PolygonSoup lamp_and_ground() {
-  PolygonSoup soup;
-  add_polygon(soup, "lamp", {{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}});
-  add_polygon(soup, "ground", {{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}});
-  return soup;
-}
+using testing::add_box;
+using testing::add_polygons;
+using testing::lamp_and_ground;
 
 // The ground of a scene, its mesh and its exact values.
 struct Lit {
@@ -66,8 +53,8 @@ struct Lit {
 
 PolygonSoup with_plate() {
   PolygonSoup soup = lamp_and_ground();
-  add_polygon(soup, "plate",
-              {{-1.5, -1.5, 2}, {1.5, -1.5, 2}, {1.5, 1.5, 2}, {-1.5, 1.5, 2}});
+  add_polygons(soup, "plate",
+               {{{-1.5, -1.5, 2}, {1.5, -1.5, 2}, {1.5, 1.5, 2}, {-1.5, 1.5, 2}}});
   return soup;
 }
 
@@ -115,7 +102,7 @@ TEST(IrradianceMesh, NothingBesideTheReceiver) {
 TEST(IrradianceMesh, KeepsTheJumpAtAFoot) {
   // A box that stands on the ground: under it is darkness, at its side is not.
   PolygonSoup soup = lamp_and_ground();
-  testing::add_box(soup, "box", {3, -1, 0}, {4, 1, 2});
+  add_box(soup, "box", {3, -1, 0}, {4, 1, 2});
   const Lit lit(soup);
   const IrradianceMesh mesh = lit.interpolated({.accuracy = 1e-4, .depth = 8});
   const Point beside(3 - 1e-7, 0.1, 0), under(3 + 1e-7, 0.1, 0);
@@ -128,7 +115,7 @@ TEST(IrradianceMesh, KeepsTheJumpAtAFoot) {
 TEST(IrradianceMesh, KeepsBothSidesOfAnUprightSheet) {
   // On its foot all of the lamp is seen, beside it only what is on the same side.
   PolygonSoup soup = lamp_and_ground();
-  add_polygon(soup, "sheet", {{0.5, -1, 0}, {0.5, 1, 0}, {0.5, 1, 2}, {0.5, -1, 2}});
+  add_polygons(soup, "sheet", {{{0.5, -1, 0}, {0.5, 1, 0}, {0.5, 1, 2}, {0.5, -1, 2}}});
   const Lit lit(soup);
   const IrradianceMesh mesh = lit.interpolated({.accuracy = 1e-3, .depth = 6});
   for (const double x : {0.5 - 1e-7, 0.5 + 1e-7}) {

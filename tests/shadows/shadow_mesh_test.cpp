@@ -7,29 +7,14 @@
 
 #include "shadows/backprojection.h"
 #include "tests/support/add_box.h"
+#include "tests/support/add_polygons.h"
 
 namespace sightline {
 namespace {
 
 using testing::add_box;
-
-void add_polygon(PolygonSoup& soup, const char* name, const std::vector<Point>& corners) {
-  std::vector<int> polygon;
-  for (const Point& p : corners) {
-    polygon.push_back(static_cast<int>(soup.vertices.size()));
-    soup.vertices.push_back(p);
-  }
-  soup.groups.push_back({name, {static_cast<int>(soup.polygons.size())}});
-  soup.polygons.push_back(polygon);
-}
-
-// A square of side 2 that shines down from a height of 4 onto a square of side 16.
-PolygonSoup lamp_and_ground() {
-  PolygonSoup soup;
-  add_polygon(soup, "lamp", {{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}});
-  add_polygon(soup, "ground", {{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}});
-  return soup;
-}
+using testing::add_polygons;
+using testing::lamp_and_ground;
 
 Shadows shadows_of(const PolygonSoup& soup, const char* receiver = "ground") {
   const Scene scene(soup);
@@ -59,8 +44,8 @@ TEST(ShadowMesh, SquareOverASquare) {
   // shrinks by 2 - s; with side 3 the umbra has the side 4, the penumbra's outline the
   // side 8.
   PolygonSoup soup = lamp_and_ground();
-  add_polygon(soup, "plate",
-              {{-1.5, -1.5, 2}, {1.5, -1.5, 2}, {1.5, 1.5, 2}, {-1.5, 1.5, 2}});
+  add_polygons(soup, "plate",
+               {{{-1.5, -1.5, 2}, {1.5, -1.5, 2}, {1.5, 1.5, 2}, {-1.5, 1.5, 2}}});
   const Shadows shadows = shadows_of(soup);
   const ReceiverShadows& ground = shadows.receivers.at(0);
   EXPECT_NEAR(ground.umbra_area, 16, 1e-12);
@@ -84,7 +69,7 @@ TEST(ShadowMesh, SquareOverASquare) {
 TEST(ShadowMesh, EveryFaceSeesTheLightAsItsStructureSays) {
   PolygonSoup soup = lamp_and_ground();
   add_box(soup, "box", {-2, -0.5, 0}, {-1, 1, 1.5});
-  add_polygon(soup, "sheet", {{0.5, -1, 2}, {1, 0.5, 2.5}, {2, -1, 3}});
+  add_polygons(soup, "sheet", {{{0.5, -1, 2}, {1, 0.5, 2.5}, {2, -1, 3}}});
   const Shadows shadows = shadows_of(soup);
   const ReceiverShadows& ground = shadows.receivers.at(0);
   EXPECT_NEAR(ground.umbra_area + ground.penumbra_area + ground.lit_area, 256, 1e-10);

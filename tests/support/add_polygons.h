@@ -24,4 +24,13 @@ inline void add_polygons(PolygonSoup& soup, const std::string& name,
   soup.groups.push_back(std::move(group));
 }
 
+/// A square "lamp" of side 2 that shines down from a height of 4 onto a square "ground"
+/// of side 16, their middles on the z axis.
+inline PolygonSoup lamp_and_ground() {
+  PolygonSoup soup;
+  add_polygons(soup, "lamp", {{{-1, -1, 4}, {-1, 1, 4}, {1, 1, 4}, {1, -1, 4}}});
+  add_polygons(soup, "ground", {{{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}}});
+  return soup;
+}
+
 }  // namespace sightline::testing

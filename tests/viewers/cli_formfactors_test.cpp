@@ -1,7 +1,6 @@
 // `sightline formfactors` as scripts meet it: matrices, points, files, refusals.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,53 +10,24 @@
 #include <sstream>
 #include <string>
 
+#include "tests/viewers/program_test.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using sightline::test::contents;
 
 const std::string kRoom = std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj";
 
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-class CliFormFactors : public testing::Test {
+class CliFormFactors : public sightline::test::ProgramTest {
  protected:
-  CliFormFactors() {
-    std::string pattern = (fs::temp_directory_path() / "sightline-test-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
-  ~CliFormFactors() override { fs::remove_all(folder_); }
+  CliFormFactors() : ProgramTest("formfactors") {}
 
-  int run(const std::string& arguments) {
-    const std::string command = std::string(SIGHTLINE_PROGRAM) + " formfactors " +
-                                arguments + " >" + file("out") + " 2>" + file("err");
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  [[nodiscard]] std::string out() const { return contents(folder_ / "out"); }
-  [[nodiscard]] std::string err() const { return contents(folder_ / "err"); }
-  json answer(const std::string& arguments) {
-    EXPECT_EQ(run(arguments + " --json -"), 0) << err();
-    return json::parse(out());
-  }
   void expect_refused(const std::string& arguments, const std::string& mentioned) {
-    EXPECT_EQ(run(arguments + " --json " + file("x.json")), 2) << arguments;
-    EXPECT_EQ(out(), "") << arguments;
-    EXPECT_NE(err().find(mentioned), std::string::npos) << arguments << ": " << err();
-    EXPECT_FALSE(fs::exists(file("x.json"))) << arguments;
+    ProgramTest::expect_refused(arguments + " --json " + file("x.json"), mentioned);
   }
-  [[nodiscard]] std::string file(const std::string& name) const {
-    return (folder_ / name).string();
-  }
-  std::string file(const std::string& name, const std::string& text) const {
-    std::ofstream(file(name)) << text;
-    return file(name);
-  }
+
   /// Two unit squares that face each other at distance 1, and one between them.
   std::string squares() const {
     return file("squares.obj",
@@ -66,8 +36,6 @@ class CliFormFactors : public testing::Test {
                 "v .25 .25 .5\nv .75 .25 .5\nv .75 .75 .5\nv .25 .75 .5\n"
                 "g floor\nf 1 2 3 4\ng ceiling\nf 8 7 6 5\ng pane\nf 9 10 11 12\n");
   }
-
-  fs::path folder_;
 };
 
 TEST_F(CliFormFactors, MatrixInTheOrderAsked) {

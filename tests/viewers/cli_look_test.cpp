@@ -1,7 +1,6 @@
 // `sightline look` as scripts meet it: views in order, files, refusals.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <array>
@@ -15,20 +14,16 @@
 #include <string>
 #include <vector>
 
+#include "tests/viewers/program_test.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using sightline::test::contents;
 
 const std::string kRoom = std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj";
 const std::string kCube = std::string(SIGHTLINE_TEST_DATA) + "/formats/cube.obj";
-
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
 
 /// Every element that is opened is closed in order, and text has no bare < or &.
 bool is_well_formed(std::string xml) {
@@ -69,55 +64,16 @@ std::size_t occurrences(const std::string& text, const std::string& word) {
   return n;
 }
 
-class CliLook : public testing::Test {
+class CliLook : public sightline::test::ProgramTest {
  protected:
-  CliLook() {
-    std::string pattern = (fs::temp_directory_path() / "sightline-test-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    fs::create_directory(folder_ / "io");
-  }
-  ~CliLook() override { fs::remove_all(folder_); }
+  CliLook() : ProgramTest("look") {}
 
-  /// The exit status of `sightline look` with these words of the shell as arguments.
-  int look(const std::string& arguments) {
-    const std::string command = std::string(SIGHTLINE_PROGRAM) + " look " + arguments +
-                                " >" + (folder_ / "io/out").string() + " 2>" +
-                                (folder_ / "io/err").string();
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  [[nodiscard]] std::string out() const { return contents(folder_ / "io/out"); }
-  [[nodiscard]] std::string err() const { return contents(folder_ / "io/err"); }
-
-  json answer(const std::string& arguments) {
-    EXPECT_EQ(look(arguments + " --json -"), 0) << err();
-    return json::parse(out());
-  }
-
-  /// Bad usage or bad input: status 2, one line that mentions this, nothing written.
   void expect_refused(const std::string& arguments, const std::string& mentioned) {
-    EXPECT_EQ(look(arguments + " --svg " + file("x.svg") + " --csv " + file("x.csv") +
-                   " --vtk " + file("x") + " --json " + file("x.json")),
-              2)
-        << arguments;
-    EXPECT_EQ(out(), "") << arguments;
-    const std::string told = err();
-    EXPECT_EQ(std::ranges::count(told, '\n'), 1) << arguments << ": " << told;
-    EXPECT_NE(told.find(mentioned), std::string::npos) << arguments << ": " << told;
-    for (const auto& entry : fs::directory_iterator(folder_ / "io")) {
-      const std::string left = entry.path().filename();
-      EXPECT_TRUE(left == "out" || left == "err" || left.ends_with("views.json"))
-          << arguments << " left " << left;
-    }
+    ProgramTest::expect_refused(arguments + " --svg " + file("x.svg") + " --csv " +
+                                    file("x.csv") + " --vtk " + file("x") + " --json " +
+                                    file("x.json"),
+                                mentioned);
   }
-
-  std::string file(const std::string& name) const { return (folder_ / "io" / name); }
-  std::string file(const std::string& name, const std::string& text) const {
-    std::ofstream(file(name)) << text;
-    return file(name);
-  }
-
-  fs::path folder_;
 };
 
 TEST_F(CliLook, AnswersInTheOrderOfTheCommandLine) {
@@ -138,9 +94,9 @@ TEST_F(CliLook, AnswersInTheOrderOfTheCommandLine) {
 }
 
 TEST_F(CliLook, HasASummaryForPeople) {
-  ASSERT_EQ(look(kCube + " --from 9,8,7"), 0) << err();
+  ASSERT_EQ(run(kCube + " --from 9,8,7"), 0) << err();
   EXPECT_NE(out().find("from 9,8,7, eye free"), std::string::npos) << out();
-  ASSERT_EQ(look(kCube + " --from 9,8,7 --svg -"), 0) << err();
+  ASSERT_EQ(run(kCube + " --from 9,8,7 --svg -"), 0) << err();
   EXPECT_TRUE(out().starts_with("<?xml"));
   EXPECT_TRUE(out().ends_with("</svg>\n")) << "and nothing else goes there";
 }
@@ -217,9 +173,9 @@ TEST_F(CliLook, AnEyeSeesSolidAnglesWithGradients) {
 }
 
 TEST_F(CliLook, FilesHoldWhatIsSeen) {
-  ASSERT_EQ(look(kRoom + " --from 5,1.6,4 --up 0,1,0 --svg " + file("v.svg") + " --png " +
-                 file("v.png") + " --pixels 200 --csv " + file("v.csv") + " --vtk " +
-                 file("vtk") + " --list --json " + file("v.json")),
+  ASSERT_EQ(run(kRoom + " --from 5,1.6,4 --up 0,1,0 --svg " + file("v.svg") + " --png " +
+                file("v.png") + " --pixels 200 --csv " + file("v.csv") + " --vtk " +
+                file("vtk") + " --list --json " + file("v.json")),
             0)
       << err();
   const json v = json::parse(contents(file("v.json"))).at("views").at(0);
@@ -243,9 +199,9 @@ TEST_F(CliLook, FilesHoldWhatIsSeen) {
 // From outside the window holds all: each edge of the map is drawn, once.
 TEST_F(CliLook, DrawsWhatIsHiddenOnRequest) {
   const std::string drawing = (folder_ / "cube.svg").string();
-  ASSERT_EQ(look(kCube + " --direction 1,2,3 --svg " + drawing), 0) << err();
+  ASSERT_EQ(run(kCube + " --direction 1,2,3 --svg " + drawing), 0) << err();
   EXPECT_EQ(occurrences(contents(drawing), "<line class=\"hidden\""), 0U);
-  ASSERT_EQ(look(kCube + " --direction 1,2,3 --hidden --seams --svg " + drawing), 0)
+  ASSERT_EQ(run(kCube + " --direction 1,2,3 --hidden --seams --svg " + drawing), 0)
       << err();
   EXPECT_TRUE(is_well_formed(contents(drawing)));
   EXPECT_EQ(occurrences(contents(drawing), "<line class=\"hidden\""), 3U);
@@ -253,8 +209,8 @@ TEST_F(CliLook, DrawsWhatIsHiddenOnRequest) {
 
 TEST_F(CliLook, TheWindowHoldsAllThatIsSeenFromOutside) {
   for (const std::string view : {"--from 9,8,7", "--direction 1,2,3", "--from 3,-5,9"}) {
-    ASSERT_EQ(look(kRoom + " " + view + " --svg " + file("v.svg") + " --list --json " +
-                   file("v.json")),
+    ASSERT_EQ(run(kRoom + " " + view + " --svg " + file("v.svg") + " --list --json " +
+                  file("v.json")),
               0)
         << err();
     const json v = json::parse(contents(file("v.json"))).at("views").at(0);
@@ -287,8 +243,8 @@ TEST_F(CliLook, WhatTheBudgetLeavesIsNull) {
     views.push_back({{"from", {3 + 0.0003 * i, 1.5, 2 + 0.0001 * i}}});
   }
   const std::string name = file("many.json", json{{"views", views}}.dump());
-  EXPECT_EQ(look(kRoom + " --at " + name + " --budget 1 --csv " + file("v.csv") +
-                 " --json " + file("v.json")),
+  EXPECT_EQ(run(kRoom + " --at " + name + " --budget 1 --csv " + file("v.csv") +
+                " --json " + file("v.json")),
             3);
   EXPECT_EQ(occurrences(err(), "\n"), 1U);
   const json j = json::parse(contents(file("v.json")));
@@ -349,7 +305,7 @@ TEST_F(CliLook, RefusesPicturesThatCannotBe) {
   std::string many;
   for (int i = 0; i < 101; ++i) many += " --from 9,8," + std::to_string(i);
   expect_refused(kCube + many, "101 views");
-  EXPECT_EQ(look(kCube + " --from 9,8,7 --from 9,8,6 --svg -"), 2);
+  EXPECT_EQ(run(kCube + " --from 9,8,7 --from 9,8,6 --svg -"), 2);
   EXPECT_EQ(out(), "");
 }
 
@@ -386,7 +342,7 @@ TEST_F(CliLook, EventsAlongAPathOfPoints) {
 TEST_F(CliLook, EventsAlongGreatCirclesForPeople) {
   const std::string path =
       file("turn.json", R"({"directions": [[3, 2, 1], [-6, 4, 2]]})");
-  ASSERT_EQ(look(kCube + " --path " + path), 0);
+  ASSERT_EQ(run(kCube + " --path " + path), 0);
   EXPECT_NE(out().find("2 views, 2 events at 1 position"), std::string::npos) << out();
   EXPECT_NE(out().find("segment 0 at 0.333333333: F (facet "), std::string::npos)
       << out();
@@ -394,7 +350,7 @@ TEST_F(CliLook, EventsAlongGreatCirclesForPeople) {
 
 TEST_F(CliLook, RefusesPathsByTheElement) {
   const auto refused_with = [&](const std::string& words, const std::string& mentioned) {
-    EXPECT_EQ(look(kCube + words + " --json " + file("answer.json")), 2) << words;
+    EXPECT_EQ(run(kCube + words + " --json " + file("answer.json")), 2) << words;
     EXPECT_EQ(occurrences(err(), "\n"), 1U) << err();
     EXPECT_NE(err().find(mentioned), std::string::npos) << err();
     EXPECT_FALSE(fs::exists(file("answer.json")));
@@ -416,15 +372,15 @@ TEST_F(CliLook, RefusesPathsByTheElement) {
 }
 
 TEST_F(CliLook, NumbersTheFilesOfSeveralViews) {
-  ASSERT_EQ(look(kCube + " --from 9,8,7 --direction 1,2,3 --pixels 64 --svg " +
-                 file("two.svg") + " --png " + file("two.png")),
+  ASSERT_EQ(run(kCube + " --from 9,8,7 --direction 1,2,3 --pixels 64 --svg " +
+                file("two.svg") + " --png " + file("two.png")),
             0)
       << err();
   for (const char* name : {"two0.svg", "two1.svg", "two0.png", "two1.png"}) {
     EXPECT_TRUE(fs::exists(file(name))) << name;
   }
   EXPECT_FALSE(fs::exists(file("two.svg")));
-  ASSERT_EQ(look(kCube + " --from 9,8,7 --svg " + file("one.svg")), 0) << err();
+  ASSERT_EQ(run(kCube + " --from 9,8,7 --svg " + file("one.svg")), 0) << err();
   EXPECT_TRUE(fs::exists(file("one.svg")));
 }
 

@@ -1,7 +1,6 @@
 // `sightline shadows` as scripts meet it: points, receivers, files, refusals.
 
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,10 +10,13 @@
 #include <sstream>
 #include <string>
 
+#include "tests/viewers/program_test.h"
+
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
+using sightline::test::contents;
 
 const std::string kScenes = std::string(SIGHTLINE_TEST_DATA) + "/shadows/";
 // A lamp of half-side 1 at height 4, a plate of half-side 3/2 at 2 (polygon 2), a ground
@@ -22,58 +24,14 @@ const std::string kScenes = std::string(SIGHTLINE_TEST_DATA) + "/shadows/";
 const std::string kPlate = kScenes + "mid_air.obj --light lamp";
 const std::string kRoom = std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj";
 
-std::string contents(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
-class CliShadows : public testing::Test {
+class CliShadows : public sightline::test::ProgramTest {
  protected:
-  CliShadows() {
-    std::string pattern = (fs::temp_directory_path() / "sightline-test-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-    fs::create_directory(folder_ / "io");
-  }
-  ~CliShadows() override { fs::remove_all(folder_); }
+  CliShadows() : ProgramTest("shadows") {}
 
-  /// The exit status of `sightline shadows` with these words of the shell as arguments.
-  int shadows(const std::string& arguments) {
-    const std::string command = std::string(SIGHTLINE_PROGRAM) + " shadows " + arguments +
-                                " >" + (folder_ / "io/out").string() + " 2>" +
-                                (folder_ / "io/err").string();
-    const int status = std::system(command.c_str());
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  }
-  [[nodiscard]] std::string out() const { return contents(folder_ / "io/out"); }
-  [[nodiscard]] std::string err() const { return contents(folder_ / "io/err"); }
-
-  json answer(const std::string& arguments) {
-    EXPECT_EQ(shadows(arguments + " --json -"), 0) << err();
-    return json::parse(out());
-  }
-
-  /// Bad usage or bad input: status 2, one line that mentions this, nothing written.
   void expect_refused(const std::string& arguments, const std::string& mentioned) {
-    EXPECT_EQ(
-        shadows(arguments + " --csv " + file("x.csv") + " --json " + file("x.json")), 2)
-        << arguments;
-    EXPECT_EQ(out(), "") << arguments;
-    const std::string told = err();
-    EXPECT_EQ(std::ranges::count(told, '\n'), 1) << arguments << ": " << told;
-    EXPECT_NE(told.find(mentioned), std::string::npos) << arguments << ": " << told;
-    for (const char* left : {"x.csv", "x.json", "x.png"})
-      EXPECT_FALSE(fs::exists(file(left))) << arguments << " left " << left;
+    ProgramTest::expect_refused(
+        arguments + " --csv " + file("x.csv") + " --json " + file("x.json"), mentioned);
   }
-
-  std::string file(const std::string& name) const { return folder_ / "io" / name; }
-  std::string file(const std::string& name, const std::string& text) const {
-    std::ofstream(file(name)) << text;
-    return file(name);
-  }
-
-  fs::path folder_;
 };
 
 // ---- points ---------------------------------------------------------------------------
@@ -132,7 +90,7 @@ TEST_F(CliShadows, PointsAsText) {
   EXPECT_EQ(p[1].at("class"), "penumbra");
   EXPECT_GT(p[1].at("form_factor"), 0);
   EXPECT_EQ(p[2].at("class"), "lit");
-  ASSERT_EQ(shadows(kPlate + " --at " + points), 0);
+  ASSERT_EQ(run(kPlate + " --at " + points), 0);
   EXPECT_NE(out().find("3 points: 1 lit, 1 in penumbra, 1 in umbra"), std::string::npos)
       << out();
 }
@@ -168,8 +126,7 @@ TEST_F(CliShadows, OneSidedGradients) {
 }
 
 TEST_F(CliShadows, PointsAsATable) {
-  ASSERT_EQ(shadows(kPlate + " --csv - --at " + file("p.txt", "3,0,0\n6,0,0,0,0,1\n")),
-            0);
+  ASSERT_EQ(run(kPlate + " --csv - --at " + file("p.txt", "3,0,0\n6,0,0,0,0,1\n")), 0);
   std::istringstream rows(out());
   std::string row;
   std::getline(rows, row);
@@ -188,7 +145,7 @@ TEST_F(CliShadows, ReceiversByDefaultAreAllButTheLight) {
   ASSERT_EQ(r.size(), 2U);
   EXPECT_EQ(r[0].at("group"), "ground");
   EXPECT_EQ(r[1].at("group"), "plate");
-  ASSERT_EQ(shadows(kPlate), 0);
+  ASSERT_EQ(run(kPlate), 0);
   EXPECT_NE(out().find("ground: area 256: lit 192, penumbra 48, umbra 16"),
             std::string::npos)
       << out();
@@ -254,7 +211,7 @@ TEST_F(CliShadows, ListTellsTheMesh) {
 }
 
 TEST_F(CliShadows, ReceiversAsATable) {
-  ASSERT_EQ(shadows(kPlate + " --csv - --receivers ground,plate"), 0);
+  ASSERT_EQ(run(kPlate + " --csv - --receivers ground,plate"), 0);
   const std::string text = out();
   EXPECT_EQ(std::ranges::count(text, '\n'), 3);
   EXPECT_TRUE(
@@ -314,11 +271,11 @@ TEST_F(CliShadows, TheAnswerDoesNotDependOnThreads) {
 
 TEST_F(CliShadows, PicturesNeedNoDisplay) {
   const std::string camera = " --eye 9,-12,6 --towards 0,0,1 --size 64x48";
-  ASSERT_EQ(shadows(kPlate + camera + " --png " + file("a.png")), 0) << err();
-  ASSERT_EQ(shadows(kPlate + camera + " --fov 30 --png " + file("b.png")), 0) << err();
-  ASSERT_EQ(shadows(kPlate + camera + " --rays 4 --png " + file("c.png")), 0) << err();
-  ASSERT_EQ(shadows(kPlate + camera + " --rays 4 --seed 2 --png " + file("d.png")), 0);
-  ASSERT_EQ(shadows(kPlate + camera + " --rays 4 --seed 2 --png " + file("e.png")), 0);
+  ASSERT_EQ(run(kPlate + camera + " --png " + file("a.png")), 0) << err();
+  ASSERT_EQ(run(kPlate + camera + " --fov 30 --png " + file("b.png")), 0) << err();
+  ASSERT_EQ(run(kPlate + camera + " --rays 4 --png " + file("c.png")), 0) << err();
+  ASSERT_EQ(run(kPlate + camera + " --rays 4 --seed 2 --png " + file("d.png")), 0);
+  ASSERT_EQ(run(kPlate + camera + " --rays 4 --seed 2 --png " + file("e.png")), 0);
   const std::string exact = contents(file("a.png"));
   EXPECT_EQ(exact.substr(1, 3), "PNG");
   EXPECT_EQ(exact.substr(16, 8), std::string("\0\0\0\x40\0\0\0\x30", 8)) << "its size";
@@ -326,7 +283,7 @@ TEST_F(CliShadows, PicturesNeedNoDisplay) {
   EXPECT_NE(exact, contents(file("c.png")));
   EXPECT_NE(contents(file("c.png")), contents(file("d.png")));
   EXPECT_EQ(contents(file("d.png")), contents(file("e.png")));
-  ASSERT_EQ(shadows(kPlate + camera + " --png -"), 0);
+  ASSERT_EQ(run(kPlate + camera + " --png -"), 0);
   EXPECT_EQ(out(), exact) << "and nothing else goes there";
 }
 
@@ -336,8 +293,8 @@ TEST_F(CliShadows, WhatTheBudgetLeavesIsNull) {
   std::ostringstream points;
   for (int i = 0; i < 400000; ++i)
     points << 3 + 0.000005 * i << ',' << 0.3 << ',' << 2 + 0.000002 * i << ",0,1,0\n";
-  EXPECT_EQ(shadows(kRoom + " --light lamp_shade --at " + file("many.txt", points.str()) +
-                    " --budget 4 --csv " + file("v.csv") + " --json " + file("v.json")),
+  EXPECT_EQ(run(kRoom + " --light lamp_shade --at " + file("many.txt", points.str()) +
+                " --budget 4 --csv " + file("v.csv") + " --json " + file("v.json")),
             3);
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
   const json j = json::parse(contents(file("v.json")));
@@ -353,8 +310,8 @@ TEST_F(CliShadows, WhatTheBudgetLeavesIsNull) {
 
 // A point is done at once; the events of the lamp on all of the room take seconds.
 TEST_F(CliShadows, WhatTheBudgetLeavesOfReceiversIsMissing) {
-  EXPECT_EQ(shadows(kRoom + " --light lamp_shade --at " + file("p.txt", "5 1 3\n") +
-                    " --receivers floor,table_top --budget 0.5 --json " + file("v.json")),
+  EXPECT_EQ(run(kRoom + " --light lamp_shade --at " + file("p.txt", "5 1 3\n") +
+                " --receivers floor,table_top --budget 0.5 --json " + file("v.json")),
             3);
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
   const json j = json::parse(contents(file("v.json")));

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iostream>
 
-#include "linespace/work/parallel.h"
 #include "shadows/form_factors.h"
+#include "viewers/commands/ask_points.h"
 #include "viewers/commands/command_line.h"
 #include "viewers/commands/outputs.h"
 #include "viewers/json_text.h"
@@ -139,40 +139,24 @@ ExitStatus answer_matrix(Session& session, const FactorOptions& options,
 
 // ---- points ---------------------------------------------------------------------------
 
-struct AnsweredPoints {
-  std::vector<PointFactors> points;
-  StageCounts predicates;
-};
-
-AnsweredPoints ask(Session& session, const FactorOptions& options, const Scene& scene,
-                   const std::vector<FormFactorSurface>& surfaces,
-                   const std::vector<ShadowQuestion>& questions) {
+AnsweredPoints<PointFactors> ask(Session& session, const FactorOptions& options,
+                                 const Scene& scene,
+                                 const std::vector<FormFactorSurface>& surfaces,
+                                 const std::vector<ShadowQuestion>& questions) {
   const FormFactorRequest request = request_of(session, options);
   const PointFactorIndex index(scene, surfaces, request);
-  session.begin("points");
-  AnsweredPoints all;
-  const auto step = [&](int&, std::size_t i) {
-    const ShadowPoint& point = questions[i].point;
-    try {
-      return index.at({Viewpoint::Kind::Eye, point.at}, point.normal->nearest,
-                      request.up);
-    } catch (const InvalidInput& refusal) {
-      throw InvalidInput(fmt::format("{}: {}", questions[i].where, refusal.what()));
-    }
-  };
-  internal::for_each_parallel(
-      questions.size(), request, internal::Deadline(request), "points", all.predicates,
-      [] { return std::optional<int>(0); }, step,
-      [&](std::size_t, PointFactors point) {
-        all.points.push_back(std::move(point));
-        return true;
-      });
-  return all;
+  return ask_points(session, questions, request,
+                    [&](std::size_t, const ShadowQuestion& question) {
+                      const ShadowPoint& point = question.point;
+                      return index.at({Viewpoint::Kind::Eye, point.at},
+                                      point.normal->nearest, request.up);
+                    });
 }
 
 void print_points(const FactorOptions& options,
                   const std::vector<FormFactorSurface>& surfaces,
-                  const AnsweredPoints& all, std::size_t asked, double seconds) {
+                  const AnsweredPoints<PointFactors>& all, std::size_t asked,
+                  double seconds) {
   constexpr std::size_t kShown = 12;
   std::cout << fmt::format("{}: {} points{}\n", options.scene, all.points.size(),
                            all.points.size() < asked ? ", INCOMPLETE" : "");
@@ -201,7 +185,8 @@ ExitStatus answer_points(Session& session, const FactorOptions& options,
     if (!q.point.normal)
       throw InvalidInput(fmt::format("{}: a normal is needed", q.where));
   }
-  const AnsweredPoints all = ask(session, options, scene, surfaces, questions);
+  const AnsweredPoints<PointFactors> all =
+      ask(session, options, scene, surfaces, questions);
   const bool complete = all.points.size() == questions.size();
   const bool sky = !options.up.empty();
   if (run.csv != nullptr) {

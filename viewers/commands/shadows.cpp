@@ -8,10 +8,10 @@
 #include <iostream>
 #include <optional>
 
-#include "linespace/work/parallel.h"
 #include "shadows/backprojection.h"
 #include "shadows/lit_picture.h"
 #include "shadows/shadow_mesh.h"
+#include "viewers/commands/ask_points.h"
 #include "viewers/commands/command_line.h"
 #include "viewers/commands/outputs.h"
 #include "viewers/files/shadow_vtk.h"
@@ -78,12 +78,6 @@ struct AnsweredPoint {
   ShadowClass shadow;
 };
 
-/// All points, or as many of the first as the budget allowed.
-struct AnsweredPoints {
-  std::vector<AnsweredPoint> points;
-  StageCounts predicates;
-};
-
 Request request_of(Session& session, const ShadowOptions& options) {
   Request request = session.with_grace();
   request.precision = options.precision;
@@ -91,33 +85,20 @@ Request request_of(Session& session, const ShadowOptions& options) {
   return request;
 }
 
-AnsweredPoints ask(Session& session, const ShadowOptions& options,
-                   const BackprojectionIndex& index,
-                   const std::vector<ShadowQuestion>& questions) {
+AnsweredPoints<AnsweredPoint> ask(Session& session, const ShadowOptions& options,
+                                  const BackprojectionIndex& index,
+                                  const std::vector<ShadowQuestion>& questions) {
   Request request = request_of(session, options);
   session.limit(request);
-  session.begin("points");
-  AnsweredPoints all;
-  const auto step = [&](int&, std::size_t i) {
-    try {
-      const Backprojection seen =
-          index.from(questions[i].point,
-                     {.gradient = options.gradient, .boundaries = options.structure});
-      return AnsweredPoint{
-          shadow_json(questions[i], seen, {options.structure, options.gradient}),
-          options.csv.empty() ? "" : shadow_csv(i, questions[i], seen), seen.shadow};
-    } catch (const InvalidInput& refusal) {
-      throw InvalidInput(fmt::format("{}: {}", questions[i].where, refusal.what()));
-    }
-  };
-  internal::for_each_parallel(
-      questions.size(), request, internal::Deadline(request), "points", all.predicates,
-      [] { return std::optional<int>(0); }, step,
-      [&](std::size_t, AnsweredPoint point) {
-        all.points.push_back(std::move(point));
-        return true;
+  return ask_points(
+      session, questions, request, [&](std::size_t i, const ShadowQuestion& question) {
+        const Backprojection seen =
+            index.from(question.point,
+                       {.gradient = options.gradient, .boundaries = options.structure});
+        return AnsweredPoint{
+            shadow_json(question, seen, {options.structure, options.gradient}),
+            options.csv.empty() ? "" : shadow_csv(i, question, seen), seen.shadow};
       });
-  return all;
 }
 
 void write_picture(Session& session, const ShadowOptions& options, const Scene& scene,
@@ -199,7 +180,7 @@ void print_receivers(const Shadows& shadows) {
   }
 }
 
-void print_points(const AnsweredPoints& all) {
+void print_points(const AnsweredPoints<AnsweredPoint>& all) {
   std::array<std::size_t, 3> counts{};
   for (const AnsweredPoint& point : all.points) ++counts[static_cast<int>(point.shadow)];
   std::cout << fmt::format("  {} {}: {} lit, {} in penumbra, {} in umbra\n",
@@ -231,7 +212,7 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
 
   // 2. What they see, and what a camera sees.
   const BackprojectionIndex index(scene, light, request_of(session, options));
-  AnsweredPoints all = ask(session, options, index, questions);
+  AnsweredPoints<AnsweredPoint> all = ask(session, options, index, questions);
   const bool asks_receivers = !options.receivers.empty() || !options.vtk.empty() ||
                               (options.at.empty() && options.png.empty());
   Shadows shadows;
