@@ -19,13 +19,14 @@ class Cone {
     for (std::size_t k = 0; k < hull.size(); ++k) {
       const Point &a = hull[k], &b = hull[(k + 1) % hull.size()];
       // Counter-clockwise as the apex sees it: inside is where this is negative.
-      add((a - apex).cross(b - apex), a);
+      add_plane(apex, a, b, a, 1);
     }
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-    for (std::size_t k = 2; k < hull.size(); ++k)
-      normal += (hull[k - 1] - hull[0]).cross(hull[k] - hull[0]);
-    add(-normal, hull[0]);
-    add(normal, apex);
+    for (std::size_t k = 2; k < hull.size(); ++k) {
+      if (add_plane(hull[0], hull[k - 1], hull[k], hull[0], -1) &&
+          add_plane(hull[0], hull[k - 1], hull[k], apex, 1)) {
+        break;
+      }
+    }
   }
 
   [[nodiscard]] bool misses(const Box& box) const {
@@ -48,11 +49,19 @@ class Cone {
     double size;  // of its coordinates
   };
 
-  // A normal that rounding may have turned bounds nothing.
-  void add(const Eigen::Vector3d& outwards, const Point& at) {
-    const double length = outwards.norm();
-    if (!(length > 0) || !std::isfinite(length)) return;
-    planes_.push_back({outwards / length, at, at.cwiseAbs().sum()});
+  // The half-space of the plane parallel to o, a, b through the point `at`.  False, and
+  // nothing bounded, where rounding of the corners may turn the normal by more than
+  // misses() allows for: the eye may be far away and see the plane all but edge-on.
+  bool add_plane(const Point& o, const Point& a, const Point& b, const Point& at,
+                 double sign) {
+    const Eigen::Vector3d u = a - o, v = b - o, normal = u.cross(v);
+    constexpr double kRounding = 0x1p-51;
+    const double size = o.cwiseAbs().sum() + a.cwiseAbs().sum() + b.cwiseAbs().sum();
+    const double off = kRounding * (size * (u.norm() + v.norm()) + u.norm() * v.norm());
+    const double length = normal.norm();
+    if (!(off < kMargin / 4 * length)) return false;
+    planes_.push_back({sign / length * normal, at, at.cwiseAbs().sum()});
+    return true;
   }
 
   std::vector<HalfSpace> planes_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "linespace/visibility_map.h"
 #include "shadows/point_form_factor.h"
 #include "tests/support/add_box.h"
 #include "tests/support/add_polygons.h"
@@ -159,6 +160,22 @@ TEST(Backprojection, BlockerThatCutsTheLamp) {
     for (const auto& side : boundary.sides) cut |= side[0].kind == SeenSide::Kind::Cut;
   }
   EXPECT_TRUE(cut);
+}
+
+TEST(Backprojection, FarAwayAndAllButInTheLampsPlane) {
+  // From 2^56 away along two sides of the lamp, and a quarter below its plane, at a point
+  // that no double is near: half of the lamp lies behind an upright sheet that reaches
+  // through the plane.
+  PolygonSoup soup;
+  add_polygons(soup, "lamp", {{{1, 0, 4}, {0, -1, 4}, {-1, 0, 4}, {0, 1, 4}}});
+  add_polygons(soup, "sheet",
+               {{{1.5, 1.5, 3}, {-0.5, 3.5, 3}, {-0.5, 3.5, 5}, {1.5, 1.5, 5}}});
+  const Lit lit(soup);
+  for (const char* y : {"504403158265495553/7", "504403158265495566/7"}) {
+    const Viewpoint far =
+        viewpoint(Viewpoint::Kind::Eye, {"504403158265495552/7", y, "15/4"});
+    EXPECT_NEAR(lit.index.from({far.at, std::nullopt}).visible_fraction, 0.5, 1e-15);
+  }
 }
 
 TEST(Backprojection, PartsOfAWallCountOnceAndTheirJointsAreNoSides) {
