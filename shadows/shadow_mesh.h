@@ -45,7 +45,8 @@ struct ShadowMesh {
   };
   struct Edge {
     ShadowEdgeKind kind;
-    /// What lines up, in words: "edge 12", "vertex 3", "source side 0", "facet 7".
+    /// What lines up, in words: "edge 12", "vertex 3", "facet 7",
+    /// "side 0 of source face 1".
     std::vector<std::string> generators;
     std::array<int, 2> ends;  ///< vertices; the same of a closed curve
     int left, right;          ///< faces; -1 outside of the receiver

@@ -43,13 +43,8 @@ const std::vector<ScannedPiece>& FamilyScan::scan(const LineFamily& family,
     open_.clear();
     for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
       std::vector<Met> met;
-      if (const auto s = between(family, cuts_[i], cuts_[i + 1])) {
-        const FamilyLine line(family, *s);
-        if (auto found = first_met(line, contacts)) met = std::move(*found);
-      } else {
-        // Closer than doubles tell apart: as before.
-        for (const ScannedPiece& piece : open_) met.push_back({piece.face, piece.front});
-      }
+      const FamilyLine line(family, between(family, cuts_[i], cuts_[i + 1]));
+      if (auto found = first_met(line, contacts)) met = std::move(*found);
       std::erase_if(met, [&](const Met& m) {
         return (m.front ? front_wanted_ : back_wanted_)[m.face] == 0;
       });
@@ -116,15 +111,15 @@ void FamilyScan::sort_cuts(const LineFamily& family) {
   cuts_.erase(last, cuts_.end());
 }
 
-std::optional<double> FamilyScan::between(const LineFamily& family, FamilyCut& a,
-                                          FamilyCut& b) {
+Ring FamilyScan::between(const LineFamily& family, FamilyCut& a, FamilyCut& b) {
   if (!(a.hi < b.lo)) {
     family.refine(a);
     family.refine(b);
   }
   const double s = a.hi + 0.5 * (b.lo - a.hi);
-  if (!(a.hi < s && s < b.lo)) return std::nullopt;
-  return s;
+  if (a.hi < s && s < b.lo) return s;
+  // Closer than doubles tell apart.
+  return number_between(family.exact(a), family.exact(b));
 }
 
 void FamilyScan::find_lit(const LineFamily& family,
@@ -157,10 +152,8 @@ void FamilyScan::find_lit(const LineFamily& family,
   sort_cuts(family);
   bool goes_on = false;
   for (std::size_t i = 0; i + 1 < cuts_.size(); ++i) {
-    const auto s = between(family, cuts_[i], cuts_[i + 1]);
-    const bool lit =
-        s ? reaches_source(FamilyLine(family, *s), contacts, farthest) : goes_on;
-    if (!lit) {
+    const FamilyLine line(family, between(family, cuts_[i], cuts_[i + 1]));
+    if (!reaches_source(line, contacts, farthest)) {
       goes_on = false;
       continue;
     }

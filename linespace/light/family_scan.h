@@ -74,9 +74,8 @@ class FamilyScan {
   void find_lit(const LineFamily& family, std::span<const FamilyContact> contacts,
                 int farthest);
   void sort_cuts(const LineFamily& family);
-  // A position between two; nullopt where doubles do not tell them apart.
-  [[nodiscard]] static std::optional<double> between(const LineFamily& family,
-                                                     FamilyCut& a, FamilyCut& b);
+  // A position strictly between two cuts, a < b.
+  [[nodiscard]] static Ring between(const LineFamily& family, FamilyCut& a, FamilyCut& b);
   [[nodiscard]] bool reaches_source(const FamilyLine& line,
                                     std::span<const FamilyContact> contacts,
                                     int farthest);

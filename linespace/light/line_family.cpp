@@ -61,19 +61,20 @@ bool inside(const QuadraticRoot& root) {
 
 }  // namespace
 
-FamilyLine::FamilyLine(const LineFamily& family, double s)
-    : family_(family),
-      s_(s),
-      x_(mix(family.x_[0], family.x_[1], Approx{s, 0})),
-      y_(mix(family.y_[0], family.y_[1], Approx{s, 0})),
-      l_(join(x_, y_)) {}
+FamilyLine::FamilyLine(const LineFamily& family, const Ring& s) : family_(family), s_(s) {
+  const double v = CGAL::to_double(s);
+  const Approx near{v, Ring(v) == s ? 0 : std::abs(v) * 2 * kHalfUlp};
+  x_ = mix(family.x_[0], family.x_[1], near);
+  y_ = mix(family.y_[0], family.y_[1], near);
+  l_ = join(x_, y_);
+}
 
 const FamilyLine::Exact& FamilyLine::exact() const {
   if (!exact_) {
     const LineFamily::Ends& ends = family_.exact_ends();
     Exact& e = exact_.emplace();
-    e.x = mix(ends.x[0], ends.x[1], Ring(s_));
-    e.y = mix(ends.y[0], ends.y[1], Ring(s_));
+    e.x = mix(ends.x[0], ends.x[1], s_);
+    e.y = mix(ends.y[0], ends.y[1], s_);
     e.l = join(e.x, e.y);
   }
   return *exact_;

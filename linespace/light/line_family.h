@@ -50,10 +50,10 @@ struct FamilyCut {
 
 class LineFamily;
 
-/// The line at a position of double precision.
+/// The line at a position.
 class FamilyLine {
  public:
-  FamilyLine(const LineFamily& family, double s);
+  FamilyLine(const LineFamily& family, const Ring& s);
 
   [[nodiscard]] Sign side_to(const LightLine& line) const;
   [[nodiscard]] const Four<Approx>& first() const { return x_; }
@@ -71,7 +71,7 @@ class FamilyLine {
   [[nodiscard]] const Exact& exact() const;
 
   const LineFamily& family_;
-  double s_;
+  Ring s_;
   Four<Approx> x_, y_;
   Six<Approx> l_;
   mutable std::optional<Exact> exact_;

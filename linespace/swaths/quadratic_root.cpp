@@ -1,5 +1,7 @@
 #include "linespace/swaths/quadratic_root.h"
 
+#include <cmath>
+
 namespace sightline::internal {
 namespace {
 
@@ -15,6 +17,26 @@ Monomials monomials(const Quadratic<Ring>& h) {
 
 Sign compare(const QuadraticRoot& x, const QuadraticRoot& y) {
   return sign_of_sum({x.a * y.c - y.a * x.c, x.b * y.c}, {-(y.b * x.c), 0}, x.d, y.d);
+}
+
+Ring number_between(const QuadraticRoot& x, const QuadraticRoot& y) {
+  const auto enclosed = [](const QuadraticRoot& r, double sign) {
+    const double at = r.rounded();
+    return Ring(at + sign * (std::abs(at) * 0x1p-40 + 0x1p-900));
+  };
+  Ring lo = enclosed(x, -1), hi = enclosed(y, 1);
+  const Ring half = 0.5;
+  for (;;) {
+    const Ring middle = half * (lo + hi);
+    const QuadraticRoot at{middle, 0, 1, 0};
+    if (compare(at, x) != Sign::Positive) {
+      lo = middle;
+    } else if (compare(at, y) != Sign::Negative) {
+      hi = middle;
+    } else {
+      return middle;
+    }
+  }
 }
 
 QuadraticRoot linear_root(const Ring& at0, const Ring& at1) {

@@ -22,6 +22,9 @@ struct QuadraticRoot {
 /// The sign of x - y.
 [[nodiscard]] Sign compare(const QuadraticRoot& x, const QuadraticRoot& y);
 
+/// A number strictly between x and y, of few bits.  Requires x < y.
+[[nodiscard]] Ring number_between(const QuadraticRoot& x, const QuadraticRoot& y);
+
 /// The zero of at0 (1 - s) + at1 s.  Requires at0 != at1.
 [[nodiscard]] QuadraticRoot linear_root(const Ring& at0, const Ring& at1);
 

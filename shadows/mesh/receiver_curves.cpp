@@ -19,17 +19,18 @@ ShadowEdgeKind kind_of(LightEventKind kind) {
   return ShadowEdgeKind::EEE;
 }
 
-std::string told(const LightFeature& feature) {
+std::string told(const LightFeature& feature, int patch) {
   const std::string id = std::to_string(feature.id);
+  const std::string of_source = " of source face " + std::to_string(patch);
   switch (feature.kind) {
     case LightFeature::Kind::Vertex:
       return "vertex " + id;
     case LightFeature::Kind::Edge:
       return "edge " + id;
     case LightFeature::Kind::SourceCorner:
-      return "source corner " + id;
+      return "corner " + id + of_source;
     case LightFeature::Kind::SourceSide:
-      return "source side " + id;
+      return "side " + id + of_source;
     case LightFeature::Kind::Touch:
       return "touch " + id;
     case LightFeature::Kind::Horizon:
@@ -124,7 +125,9 @@ ReceiverCurves receiver_curves(const Scene& scene, const ReceiverPlane& plane,
     const LightTrace& trace = events.traces[t];
     const LightTrace::Piece& piece = trace.pieces[i];
     ReceiverCurves::Name name{kind_of(trace.kind), {}};
-    for (const LightFeature& g : trace.generators) name.generators.push_back(told(g));
+    for (const LightFeature& g : trace.generators) {
+      name.generators.push_back(told(g, trace.patch));
+    }
     if (trace.straight) {
       maker.add_segment(affine(plane.drop(piece.ends[0])),
                         affine(plane.drop(piece.ends[1])), std::move(name));

@@ -1,8 +1,10 @@
 #include "shadows/backprojection.h"
 
 #include <algorithm>
+#include <deque>
 
 #include "linespace/numbers/exact_position.h"
+#include "shadows/seen/seen_boundaries.h"
 #include "shadows/seen/seen_measures.h"
 #include "shadows/seen/seen_part.h"
 #include "shadows/seen/source_scene.h"
@@ -132,6 +134,7 @@ class Asker {
       facing_ += (*areas_)[i];
       if (star_.place() != EyePlace::Inside) ask_plane(planes[i], (*areas_)[i]);
     }
+    seen_.boundaries = seen_boundaries(*source_, parts_);
     if (any_seen_) {
       seen_.shadow = any_hidden_ ? ShadowClass::Penumbra : ShadowClass::Lit;
       seen_.visible_fraction = any_hidden_ ? std::min(area_ / facing_, 1.0) : 1;
@@ -148,17 +151,18 @@ class Asker {
 
  private:
   void ask_plane(const SourcePlane& plane, double open_area) {
-    const SourceView view({.source = source_,
-                           .plane = &plane,
-                           .eye = viewpoint_,
-                           .horizon = horizon_ ? &*horizon_ : nullptr,
-                           .star = &star_,
-                           .all_lines = options_.boundaries || options_.gradient});
+    const SourceView& view = views_.emplace_back(
+        SourceView::Question{.source = source_,
+                             .plane = &plane,
+                             .eye = viewpoint_,
+                             .horizon = horizon_ ? &*horizon_ : nullptr,
+                             .star = &star_,
+                             .all_lines = options_.boundaries || options_.gradient});
     any_seen_ |= view.any_seen();
     any_hidden_ |= view.any_hidden();
     for (const int face : view.edge_on_faces()) events_.add_face(view.eye(), face);
     if (!view.any_seen()) return;
-    const SeenPart part = seen_part(view);
+    SeenPart part = seen_part(view);
     const PlaneFrame frame(*source_, plane, view.eye());
     const double part_area = view.any_hidden() ? seen_area(frame, part) : open_area;
     area_ += part_area;
@@ -170,10 +174,7 @@ class Asker {
       if (gradient_) *gradient_ += *of_part.gradient;
       for (const int line : of_part.in_line) events_.add_line(view.eye(), line);
     }
-    if (options_.boundaries) {
-      auto boundaries = seen_boundaries(*source_, plane, view, part);
-      std::ranges::move(boundaries, std::back_inserter(seen_.boundaries));
-    }
+    if (options_.boundaries) parts_.push_back({&plane, &view, std::move(part)});
   }
 
   const SourceScene* source_;
@@ -190,6 +191,8 @@ class Asker {
   std::optional<Eigen::Vector3d> gradient_ = Eigen::Vector3d::Zero().eval();
   bool any_seen_ = false, any_hidden_ = false;
   EventPlanes events_;
+  std::deque<SourceView> views_;
+  std::vector<SeenPlane> parts_;  // where boundaries are asked for
 };
 
 // So far beside an event's plane, relative to the light's distance, is the gradient the

@@ -1,11 +1,10 @@
-// The part of a plane of the source that an eye sees, as a region: its boundary edges,
-// their names, its closed boundaries.
+// The part of a plane of the source that an eye sees, as a region: its boundary edges and
+// what is seen along them.
 
 #pragma once
 
 #include <vector>
 
-#include "shadows/light_seen.h"
 #include "shadows/seen/source_view.h"
 
 namespace sightline::internal {
@@ -15,22 +14,14 @@ struct SeenPart {
   struct Edge {
     int from, to;            ///< points
     std::vector<int> lines;  ///< all that are seen there, ascending; the first is drawn
-    bool forward;            ///< the edge runs in that line's own order
+    /// By position in `lines`: the view's piece; those of one line are in its order.
+    std::vector<int> pieces;
+    bool forward;  ///< the edge runs in the first line's own order
   };
   std::vector<PicturePoint> points;
   std::vector<Edge> edges;
 };
 
 [[nodiscard]] SeenPart seen_part(const SourceView& view);
-
-/// The closed walks along the edges, the part seen on their left: positions in `edges`.
-[[nodiscard]] std::vector<std::vector<int>> boundary_walks(const EyeSpace& eye,
-                                                           const SeenPart& part);
-
-/// Names the walks' sides; in a canonical order.
-[[nodiscard]] std::vector<SeenBoundary> seen_boundaries(const SourceScene& source,
-                                                        const SourcePlane& plane,
-                                                        const SourceView& view,
-                                                        const SeenPart& part);
 
 }  // namespace sightline::internal

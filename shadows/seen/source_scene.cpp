@@ -78,6 +78,7 @@ SourceScene::SourceScene(const Scene& scene, const LightSource& source,
     find_source_faces(plane, numbers);
     plane.hull = hull_of(scene, plane);
   }
+  find_diagonals();
   scene_ = scene_.with_lines({}, lines);
 }
 
@@ -151,6 +152,27 @@ void SourceScene::find_source_faces(SourcePlane& plane, int& numbers) const {
   }
   for (int i = 0; i < n; ++i) plane.source_face.push_back(numbers + classes.root(i));
   numbers += n;
+}
+
+// The triangles of a bent polygon are planes of their own, and share corners.
+void SourceScene::find_diagonals() {
+  std::map<std::array<int, 2>, std::vector<SourcePlane*>> bent;  // by facet and side
+  for (SourcePlane& plane : planes_) {
+    const int facet = scene_.scene().faces()[plane.faces.front()].facet;
+    if (scene_.scene().facets()[facet].planar) continue;
+    auto& triangles = bent[{facet, plane.fronts.front() ? 1 : 0}];
+    for (SourcePlane* other : triangles) {
+      for (SourcePlane::Side& s : plane.sides.front()) {
+        for (SourcePlane::Side& t : other->sides.front()) {
+          if (s.ends[0] != t.ends[1] || s.ends[1] != t.ends[0]) continue;
+          s.twin_line = t.line;
+          t.twin_line = s.line;
+        }
+      }
+      plane.source_face = other->source_face;
+    }
+    triangles.push_back(&plane);
+  }
 }
 
 ExactPoint SourceScene::crossing(const SourcePlane& plane, int p, int q) const {

@@ -23,9 +23,13 @@ struct SourcePlane {
     /// Number of the source's side: one for sides on one line, with the source on the
     /// same hand, that touch or overlap.
     int name;
+    /// Of a diagonal of a polygon that rounding has bent, the line of the triangle
+    /// beyond, which runs against this one; else -1.
+    int twin_line = -1;
   };
   std::vector<std::vector<Side>> sides;  ///< by position in `faces`
-  /// By position in `faces`: faces that touch along an edge or overlap are one.
+  /// By position in `faces`: faces that touch along an edge or overlap are one; so are
+  /// the triangles of a polygon that rounding has bent.
   std::vector<int> source_face;
   /// Around all of them, in their plane, counter-clockwise; rounded.
   std::vector<Point> hull;
@@ -51,6 +55,7 @@ class SourceScene {
   void group_by_planes(const LightSource& source);
   void name_sides(SourcePlane& plane, int& names) const;
   void find_source_faces(SourcePlane& plane, int& numbers) const;
+  void find_diagonals();
 
   ViewScene scene_;
   std::vector<SourcePlane> planes_;

@@ -405,6 +405,36 @@ TEST(LightEvents, TrianglesOnAGrid) {
 
 // A narrow gutter of two sheets, with a valley between their fronts: from below the fold
 // is an outline.
+// Lines through a corner and an edge reach the floor through a slit only, however narrow.
+TEST(LightEvents, NarrowSlits) {
+  for (const double width : {1.0, 0x1p-30, 0x1p-50, 0x1p-70, 0x1p-130}) {
+    PolygonSoup soup;
+    add_rectangle(soup, "light", -1, -1, 1, 1, 10, false);
+    add_rectangle(soup, "floor", -9, -9, 9, 9, 0, true);
+    add_rectangle(soup, "roof", -4, 0, 4, 4, 8, true);
+    add_polygon(soup, "corner", {{0, 0, 2}, {-1, -2, 2}, {1, -2, 2}});
+    add_rectangle(soup, "left", -3, -3, 0, 3, 1, true);
+    add_rectangle(soup, "right", width, -3, 4, 3, 1, true);
+    const Lit lit(std::move(soup));
+    int found = 0;
+    for (const LightTrace& t : lit.events.traces) {
+      if (t.kind != LightEventKind::EV) continue;
+      for (const auto& piece : t.pieces) {
+        if (lit.scene.faces()[piece.face].facet != lit.floor_facet) continue;
+        // X(0) is the corner, Y(0) a corner of the roof.
+        const auto& x = t.first[0];
+        const auto& y = t.last[0];
+        if (!is_zero(x[0]) || !is_zero(x[1]) || CGAL::to_double(x[2]) != 2) continue;
+        if (CGAL::to_double(y[2]) != 8) continue;
+        ++found;
+        const auto& [from, to] = piece.range;
+        EXPECT_EQ(internal::compare(from, to), Sign::Negative);
+      }
+    }
+    EXPECT_EQ(found, 1) << width;
+  }
+}
+
 TEST(LightEvents, FoldOfASheet) {
   PolygonSoup soup;
   add_rectangle(soup, "light", -1, -1, 1, 1, 4, false);

@@ -18,6 +18,7 @@ namespace {
 struct Step {
   Ray from, to, line;
   NaiveSide on;
+  int face;  ///< in whose plane it lies
 };
 
 /// A side of some part or face in the picture.
@@ -50,12 +51,29 @@ class Structure {
     for (std::size_t i = 0; i < parts_.shown.size(); ++i) {
       patches[sets.find(static_cast<int>(i))].push_back(parts_.shown[i]);
     }
-    std::vector<NaiveSeenSource> result;
+    // Triangles of one polygon that rounding has bent are a source face together.
+    std::vector<std::pair<std::vector<int>, std::vector<Step>>> joined;
     for (const auto& [root, members] : patches) {
+      std::vector<int> polygons;
+      for (const int f : members) polygons.push_back(faces()[f].polygon);
+      polygons = sorted_set(polygons);
+      std::vector<Step> steps = steps_of(members);
+      const auto same = std::ranges::find_if(joined, [&](const auto& known) {
+        return std::ranges::any_of(polygons, [&](int polygon) {
+          return std::ranges::find(known.first, polygon) != known.first.end();
+        });
+      });
+      if (same == joined.end()) {
+        joined.emplace_back(std::move(polygons), std::move(steps));
+      } else {
+        same->second.insert(same->second.end(), steps.begin(), steps.end());
+      }
+    }
+    std::vector<NaiveSeenSource> result;
+    for (const auto& [polygons, steps] : joined) {
       NaiveSeenSource seen;
-      for (const int f : members) seen.polygons.push_back(faces()[f].polygon);
-      seen.polygons = sorted_set(seen.polygons);
-      chain(steps_of(members), members[0], seen);
+      seen.polygons = polygons;
+      chain(without_doubles(steps), seen);
       if (!seen.boundaries.empty()) result.push_back(std::move(seen));
     }
     std::ranges::sort(result, [](const NaiveSeenSource& a, const NaiveSeenSource& b) {
@@ -231,8 +249,47 @@ class Structure {
         if (plus == minus) continue;
         NaiveSide on = names_at(between({at[i], at[i + 1]}), line, patch);
         // Counter-clockwise about the line its positive side is seen on the right.
-        result.push_back(plus ? Step{at[i + 1], at[i], line, std::move(on)}
-                              : Step{at[i], at[i + 1], line, std::move(on)});
+        result.push_back(plus ? Step{at[i + 1], at[i], line, std::move(on), patch[0]}
+                              : Step{at[i], at[i + 1], line, std::move(on), patch[0]});
+      }
+    }
+    return result;
+  }
+
+  /// Without the parts of steps along which another one runs the other way: what is seen
+  /// goes on across a fold.
+  [[nodiscard]] static std::vector<Step> without_doubles(const std::vector<Step>& steps) {
+    std::vector<Step> result;
+    for (const Step& step : steps) {
+      const auto forward = [&](const Step& s) {
+        return is_before(step.line, s.from, s.to);
+      };
+      const auto low = [&](const Step& s) { return forward(s) ? s.from : s.to; };
+      const auto high = [&](const Step& s) { return forward(s) ? s.to : s.from; };
+      std::vector<Ray> at{low(step), high(step)};
+      std::vector<const Step*> against;
+      for (const Step& other : steps) {
+        if (other.line != step.line || forward(other) == forward(step)) continue;
+        against.push_back(&other);
+        for (const Ray& r : {other.from, other.to}) {
+          if (is_before(step.line, at[0], r) && is_before(step.line, r, at[1])) {
+            at.push_back(r);
+          }
+        }
+      }
+      std::ranges::sort(
+          at, [&](const Ray& a, const Ray& b) { return is_before(step.line, a, b); });
+      for (std::size_t i = 0; i + 1 < at.size(); ++i) {
+        if (at[i] == at[i + 1]) continue;
+        const bool doubled = std::ranges::any_of(against, [&](const Step* other) {
+          return !is_before(step.line, at[i], low(*other)) &&
+                 !is_before(step.line, high(*other), at[i + 1]);
+        });
+        if (doubled) continue;
+        Step part = step;
+        part.from = forward(step) ? at[i] : at[i + 1];
+        part.to = forward(step) ? at[i + 1] : at[i];
+        result.push_back(std::move(part));
       }
     }
     return result;
@@ -261,7 +318,7 @@ class Structure {
     return *best;
   }
 
-  void chain(const std::vector<Step>& steps, int face, NaiveSeenSource& seen) const {
+  void chain(const std::vector<Step>& steps, NaiveSeenSource& seen) const {
     std::vector<char> used(steps.size(), 0);
     std::vector<std::pair<std::vector<NaiveSide>, std::vector<NaiveSeenSource::Corner>>>
         loops;
@@ -275,7 +332,7 @@ class Structure {
         if (next == first) break;
         loop.push_back(next);
       }
-      loops.push_back(told(steps, loop, face));
+      loops.push_back(told(steps, loop));
     }
     std::ranges::sort(loops,
                       [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -287,8 +344,7 @@ class Structure {
 
   /// Steps on one line with one name are one; the smallest rotation.
   [[nodiscard]] std::pair<std::vector<NaiveSide>, std::vector<NaiveSeenSource::Corner>>
-  told(const std::vector<Step>& steps, const std::vector<std::size_t>& loop,
-       int face) const {
+  told(const std::vector<Step>& steps, const std::vector<std::size_t>& loop) const {
     std::vector<NaiveSide> sides;
     std::vector<NaiveSeenSource::Corner> corners;
     for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -296,7 +352,7 @@ class Structure {
       const Step& step = steps[loop[i]];
       if (last.line == step.line && last.on == step.on) continue;
       sides.push_back(step.on);
-      const Vec3 at = in_space(step.from, face);
+      const Vec3 at = in_space(step.from, step.face);
       corners.push_back({Point(static_cast<double>(at[0]), static_cast<double>(at[1]),
                                static_cast<double>(at[2])),
                          last.line == step.line});

@@ -293,10 +293,15 @@ TEST_F(CliShadows, WhatTheBudgetLeavesIsNull) {
   std::ostringstream points;
   for (int i = 0; i < 400000; ++i)
     points << 3 + 0.000005 * i << ',' << 0.3 << ',' << 2 + 0.000002 * i << ",0,1,0\n";
-  EXPECT_EQ(run(kRoom + " --light lamp_shade --at " + file("many.txt", points.str()) +
-                " --budget 4 --csv " + file("v.csv") + " --json " + file("v.json")),
-            3);
-  EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
+  const std::string many = file("many.txt", points.str());
+  // On a busy machine nothing may be done yet; then nothing is written.
+  for (int budget = 4; budget <= 64 && contents(file("v.json")).empty(); budget *= 2) {
+    EXPECT_EQ(run(kRoom + " --light lamp_shade --at " + many + " --budget " +
+                  std::to_string(budget) + " --csv " + file("v.csv") + " --json " +
+                  file("v.json")),
+              3);
+    EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
+  }
   const json j = json::parse(contents(file("v.json")));
   EXPECT_EQ(j.at("complete"), false);
   const json& p = j.at("points");
