@@ -76,6 +76,12 @@ Scaled scaled(const Surd& x, const Ring& d) {
 
 }  // namespace
 
+Rational rational(const Ring& x) {
+  Rational out;
+  if (!is_zero(x)) mpq_set(out.backend().data(), CGAL::Gmpq(x).mpq());
+  return out;
+}
+
 Sign sign_of(const Surd& x, const Ring& d) {
   const Sign a = sign_of(x.a);
   const Sign b = is_zero(d) ? Sign::Zero : sign_of(x.b);

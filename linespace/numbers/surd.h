@@ -11,6 +11,7 @@
 #include <array>
 #include <optional>
 
+#include "linespace/numbers/rational.h"
 #include "linespace/numbers/vectors.h"
 #include "linespace/predicates.h"
 
@@ -22,6 +23,7 @@ using RingVector = std::array<Ring, 3>;
 [[nodiscard]] inline Sign sign_of(const Ring& x) {
   return static_cast<Sign>(static_cast<int>(CGAL::sign(x)));
 }
+[[nodiscard]] Rational rational(const Ring& x);
 [[nodiscard]] inline bool is_zero(const Ring& x) { return sign_of(x) == Sign::Zero; }
 
 /// a + b sqrt(D), D >= 0.

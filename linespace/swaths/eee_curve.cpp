@@ -254,13 +254,6 @@ bool EeeCurve::may_vanish(const BoundedForm& form) const {
 
 namespace {
 
-Rational rational(const Ring& x) {
-  const CGAL::Gmpq q(x);
-  Rational r;
-  mpq_set(r.backend().data(), q.mpq());
-  return r;
-}
-
 }  // namespace
 
 std::optional<Rational> EeeCurve::rational_parameter(const CurveCut& cut) const {

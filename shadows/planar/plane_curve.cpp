@@ -1,15 +1,8 @@
 #include "shadows/planar/plane_curve.h"
 
-#include <CGAL/Gmpq.h>
 #include <gmp.h>
 
 namespace sightline::internal {
-
-Rational rational(const Ring& x) {
-  Rational out;
-  if (!is_zero(x)) mpq_set(out.backend().data(), CGAL::Gmpq(x).mpq());
-  return out;
-}
 
 CurveEnd rational_end(const Rational& s) { return {{-s, 1, 0}, false}; }
 

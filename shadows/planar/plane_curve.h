@@ -47,6 +47,4 @@ using PlanePoint = std::array<Rational, 2>;
 /// are simple and may touch one another, themselves and each other, in single points.
 using PlaneOutline = std::vector<std::vector<PlanePoint>>;
 
-[[nodiscard]] Rational rational(const Ring& x);
-
 }  // namespace sightline::internal

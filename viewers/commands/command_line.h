@@ -92,6 +92,7 @@ class Meter {
 };
 
 /// Registers the command under its name; the Command is valid after parsing.
+Command add_aspects_command(CLI::App& app);
 Command add_formfactors_command(CLI::App& app);
 Command add_info_command(CLI::App& app);
 Command add_look_command(CLI::App& app);

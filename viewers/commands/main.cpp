@@ -83,6 +83,7 @@ int main(int argc, char** argv) {
       "output that could not be written to its end.");
   std::vector<std::pair<std::string, Command>> commands;
   commands.emplace_back("analyse", add_analyse_command(app));
+  commands.emplace_back("aspects", add_aspects_command(app));
   commands.emplace_back("info", add_info_command(app));
   commands.emplace_back("look", add_look_command(app));
   commands.emplace_back("formfactors", add_formfactors_command(app));

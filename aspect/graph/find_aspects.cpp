@@ -1,0 +1,34 @@
+#include <algorithm>
+
+#include "aspect/aspect_graph.h"
+#include "aspect/convex/convex_aspects.h"
+#include "aspect/sampled/sampled_aspects.h"
+
+namespace sightline {
+
+using namespace internal;
+
+AspectGraph find_aspects(const Scene& scene, const AspectRequest& request) {
+  if (request.samples < 1) throw InvalidInput("samples: at least one is needed");
+  if (request.bounds &&
+      !((*request.bounds)[0].array() < (*request.bounds)[1].array()).all()) {
+    throw InvalidInput("bounds: the first corner must be below the second on all axes");
+  }
+  const PrecisionScope precision(request.precision);
+  if (request.method == AspectMethod::Sampled) return sampled_aspects(scene, request);
+  std::string why;
+  if (request.method == AspectMethod::Exact) {
+    if (!request.of.empty()) {
+      why = "exact graphs are of all faces so far";
+    } else if (const auto solid = convex_solid(scene)) {
+      return convex_aspects(scene, *solid, request);
+    } else {
+      why = "exact graphs are of one convex solid so far";
+    }
+  }
+  AspectGraph out = sampled_aspects(scene, request);
+  out.why = why.empty() ? "refined graphs are not there yet: sampled" : why;
+  return out;
+}
+
+}  // namespace sightline

@@ -1,0 +1,16 @@
+// An aspect graph as JSON, in the words of CONTRACT.md, section aspects.
+
+#pragma once
+
+#include <string_view>
+
+#include "aspect/aspect_graph.h"
+#include "viewers/answer.h"
+
+namespace sightline::viewers {
+
+[[nodiscard]] std::string_view name(AspectMethod method);
+
+[[nodiscard]] Json aspects_json(const Scene& scene, const AspectGraph& graph, bool list);
+
+}  // namespace sightline::viewers
