@@ -21,6 +21,7 @@
 #include <string>
 #include <vector>
 
+#include "linespace/path_events.h"
 #include "linespace/request.h"
 #include "linespace/scene.h"
 #include "linespace/visibility_map.h"
@@ -72,17 +73,8 @@ struct AspectCheck {
   std::array<double, 2> interval{};  ///< of the share not in the graph, 95 %
 };
 
-/// What makes a wall between two aspects.
-struct AspectWall {
-  enum class Kind : std::uint8_t {
-    F,   ///< facets are seen edge-on
-    EV,  ///< a vertex in line with an edge
-    EEE  ///< three edges in one point
-  };
-  Kind kind;
-  std::vector<int> facets = {};            ///< of kind F
-  std::vector<Generator> generators = {};  ///< of the others
-};
+/// What makes a wall between two aspects; of kind F facets that are seen edge-on.
+using AspectWall = PathEvent;
 
 struct AspectNeighbour {
   int aspect;
@@ -112,6 +104,11 @@ struct AspectGraph {
   std::optional<std::size_t> unbounded, bounded;
   bool certified = false, complete = true;
   std::size_t views = 0;  ///< that were taken
+  /// Refined: views and aspects after each round; the first is of the samples.
+  struct Round {
+    std::size_t views, aspects;
+  };
+  std::vector<Round> rounds = {};
   std::optional<AspectEstimate> estimate;
   std::optional<AspectCheck> check;
   std::vector<Aspect> list;  ///< where it is wanted

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <unordered_set>
 
 #include "aspect/cells/cell_volume.h"
@@ -11,6 +12,7 @@
 #include "aspect/cells/space_cells.h"
 #include "aspect/cells/sphere_cells.h"
 #include "aspect/sampled/sample_space.h"
+#include "aspect/sampled/sampled_aspects.h"
 #include "linespace/numbers/exact_position.h"
 #include "linespace/point_view.h"
 #include "linespace/work/parallel.h"
@@ -179,7 +181,15 @@ class ConvexGraph {
       out.bounded = out.aspects - unbounded;
     }
     out.by_shape = shapes();
-    if (request_->list) list(out);
+    if (request_->list || request_->check > 0) list(out);
+    if (request_->check > 0) {
+      std::set<std::string> labels;
+      for (const Aspect& a : out.list) labels.insert(a.structure);
+      AspectRequest by_structure = *request_;
+      by_structure.label = AspectLabel::Structure;
+      out.check = check_labels(PointViewIndex(*scene_, *request_), by_structure, labels);
+    }
+    if (!request_->list) out.list.clear();
     return out;
   }
 
@@ -236,7 +246,9 @@ class ConvexGraph {
       for (const auto& w : all) {
         const int a = number_[w.negative], b = number_[w.positive];
         if (a < 0 || b < 0) continue;
-        const AspectWall wall{AspectWall::Kind::F, cells_.facets_of(surface(w))};
+        AspectWall wall{PathEventKind::F, {}};
+        for (const int f : cells_.facets_of(surface(w)))
+          wall.generators.push_back({GeneratorKind::Face, f});
         out.list[a].neighbours.push_back({b, {wall}});
         out.list[b].neighbours.push_back({a, {wall}});
       }

@@ -2,6 +2,7 @@
 
 #include "aspect/aspect_graph.h"
 #include "aspect/convex/convex_aspects.h"
+#include "aspect/refined/refined_aspects.h"
 #include "aspect/sampled/sampled_aspects.h"
 
 namespace sightline {
@@ -26,8 +27,8 @@ AspectGraph find_aspects(const Scene& scene, const AspectRequest& request) {
       why = "exact graphs are of one convex solid so far";
     }
   }
-  AspectGraph out = sampled_aspects(scene, request);
-  out.why = why.empty() ? "refined graphs are not there yet: sampled" : why;
+  AspectGraph out = refined_aspects(scene, request);
+  out.why = why;
   return out;
 }
 

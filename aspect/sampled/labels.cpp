@@ -91,11 +91,8 @@ class Labeller {
 
 }  // namespace
 
-std::optional<ViewLabels> labels_of(const PointViewIndex& index, const Viewpoint& at,
-                                    const AspectRequest& request) {
-  const PointView view = index.view(at);
-  if (view.place != EyePlace::Free || !view.general) return std::nullopt;
-  const Scene& scene = index.shared().scene();
+ViewLabels labels_of(const PointView& view, const Scene& scene,
+                     const AspectRequest& request) {
   ViewLabels out;
   const Labeller labeller(view, request);
   out.faces = labeller.faces(scene);
@@ -110,6 +107,13 @@ std::optional<ViewLabels> labels_of(const PointViewIndex& index, const Viewpoint
     out.label = request.of.empty() ? out.structure : labeller.structure_of_part(scene);
   }
   return out;
+}
+
+std::optional<ViewLabels> labels_of(const PointViewIndex& index, const Viewpoint& at,
+                                    const AspectRequest& request) {
+  const PointView view = index.view(at);
+  if (view.place != EyePlace::Free || !view.general) return std::nullopt;
+  return labels_of(view, index.shared().scene(), request);
 }
 
 }  // namespace sightline::internal

@@ -19,6 +19,9 @@ struct ViewLabels {
   std::vector<int> facets;
 };
 
+/// Of a view that is general.
+[[nodiscard]] ViewLabels labels_of(const PointView& view, const Scene& scene,
+                                   const AspectRequest& request);
 /// nullopt for a viewpoint on an event, on the scene, or inside a closed object: it
 /// belongs to no aspect.
 [[nodiscard]] std::optional<ViewLabels> labels_of(const PointViewIndex& index,

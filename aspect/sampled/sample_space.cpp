@@ -28,7 +28,6 @@ void sort_pairs(std::vector<std::array<int, 2>>& pairs) {
 // An icosahedron whose triangles are cut into four, again and again.
 Samples geodesic_sphere(int least) {
   Samples out;
-  out.weight = 4 * std::numbers::pi;
   const double g = std::numbers::phi;
   for (const double a : {-1.0, 1.0}) {
     for (const double b : {-g, g}) {
@@ -77,7 +76,6 @@ Samples geodesic_sphere(int least) {
 Samples grid(const std::array<Point, 2>& box, int least) {
   Samples out;
   const Point size = box[1] - box[0];
-  out.weight = size.prod();
   int n = 1;
   while (static_cast<long>(n) * n * n < least) ++n;
   // A hair off the middle, which symmetric scenes have planes through.
@@ -101,8 +99,12 @@ using Base = CGAL::Triangulation_vertex_base_with_info_3<int, Kernel>;
 using Structure = CGAL::Triangulation_data_structure_3<Base>;
 using Delaunay = CGAL::Delaunay_triangulation_3<Kernel, Structure>;
 
+}  // namespace
+
 // Of points on the sphere it is their hull: the triangulation with the centre.
-std::vector<std::array<int, 2>> delaunay(const std::vector<Point>& at, bool sphere) {
+std::vector<std::array<int, 2>> neighbours_of(const std::vector<Point>& at,
+                                              Projection projection) {
+  const bool sphere = projection == Projection::Orthographic;
   std::vector<std::array<int, 2>> out;
   std::vector<std::pair<Kernel::Point_3, int>> points;
   for (std::size_t i = 0; i < at.size(); ++i) {
@@ -121,12 +123,16 @@ std::vector<std::array<int, 2>> delaunay(const std::vector<Point>& at, bool sphe
   return out;
 }
 
-}  // namespace
-
 std::array<Point, 2> view_box(const Scene& scene, const AspectRequest& request) {
   if (request.bounds) return *request.bounds;
   const Point size = scene.bounds()[1] - scene.bounds()[0];
   return {scene.bounds()[0] - size, scene.bounds()[1] + size};
+}
+
+double view_weight(const Scene& scene, const AspectRequest& request) {
+  if (request.projection == Projection::Orthographic) return 4 * std::numbers::pi;
+  const auto [low, high] = view_box(scene, request);
+  return (high - low).prod();
 }
 
 std::vector<Point> random_samples(const Scene& scene, const AspectRequest& request,
@@ -159,9 +165,7 @@ Samples samples_of(const Scene& scene, const AspectRequest& request) {
   }
   Samples out;
   out.at = random_samples(scene, request, request.samples, request.seed);
-  const auto [low, high] = view_box(scene, request);
-  out.weight = sphere ? 4 * std::numbers::pi : (high - low).prod();
-  out.neighbours = delaunay(out.at, sphere);
+  out.neighbours = neighbours_of(out.at, request.projection);
   return out;
 }
 

@@ -12,7 +12,6 @@ namespace sightline::internal {
 struct Samples {
   std::vector<Point> at;  ///< directions of length about 1, or points
   std::vector<std::array<int, 2>> neighbours;
-  double weight = 0;  ///< of all together: 4 pi, or the volume of the box
 };
 
 /// The bounds of a perspective graph; without any the scene's box made three times as
@@ -20,10 +19,17 @@ struct Samples {
 [[nodiscard]] std::array<Point, 2> view_box(const Scene& scene,
                                             const AspectRequest& request);
 
+/// 4 pi, or the volume of that box.
+[[nodiscard]] double view_weight(const Scene& scene, const AspectRequest& request);
+
 /// At least request.samples.  Regular: a geodesic sphere, turned so that its directions
 /// lie in no plane of an aligned scene; a grid of cells' middles.  Random: with the
 /// neighbours of a Delaunay triangulation.
 [[nodiscard]] Samples samples_of(const Scene& scene, const AspectRequest& request);
+
+/// Pairs of a Delaunay triangulation of directions or points, ascending.
+[[nodiscard]] std::vector<std::array<int, 2>> neighbours_of(const std::vector<Point>& at,
+                                                            Projection projection);
 
 /// Further independent random viewpoints.
 [[nodiscard]] std::vector<Point> random_samples(const Scene& scene,

@@ -76,8 +76,13 @@ TEST_F(CliAspects, Sampled) {
 }
 
 TEST_F(CliAspects, WhatIsNotExactSaysWhy) {
-  const json j = answer(kRoom + " --projection orthographic --samples 12");
-  EXPECT_EQ(j.at("method"), "sampled");
+  std::ofstream(file("two.obj")) << "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no b\nv 0 0 "
+                                    "1\nv 1 0 1\nv 0 1 1\nf 4 5 6\n";
+  const json j =
+      answer(file("two.obj") + " --projection orthographic --samples 12 --list");
+  EXPECT_EQ(j.at("method"), "refined");
+  EXPECT_GE(j.at("rounds").size(), 1U);
+  EXPECT_EQ(j.at("list").size(), j.at("aspects"));
   EXPECT_EQ(j.at("certified"), false);
   EXPECT_FALSE(j.at("why").get<std::string>().empty());
 }
@@ -95,8 +100,8 @@ TEST_F(CliAspects, Refusals) {
 }
 
 TEST_F(CliAspects, BudgetLeavesAPartialGraph) {
-  EXPECT_EQ(run(kRoom + " --projection orthographic --samples 100000 --budget 3 --json " +
-                file("b.json")),
+  EXPECT_EQ(run(kRoom + " --projection orthographic --method sampled --samples 100000" +
+                " --budget 3 --json " + file("b.json")),
             3);
   EXPECT_EQ(json::parse(contents(file("b.json"))).at("complete"), false);
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();

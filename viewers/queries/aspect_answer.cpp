@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "viewers/queries/path_answer.h"
+
 namespace sightline::viewers {
 namespace {
 
@@ -27,21 +29,6 @@ Json position_json(const ExactPosition& at) {
   return out;
 }
 
-Json wall_json(const AspectWall& wall) {
-  constexpr const char* kKinds[] = {"F", "EV", "EEE"};
-  Json out{{"kind", kKinds[static_cast<int>(wall.kind)]}};
-  if (wall.kind == AspectWall::Kind::F) {
-    out["facets"] = wall.facets;
-    return out;
-  }
-  for (const Generator& g : wall.generators) {
-    constexpr const char* kNames[] = {"corner", "edge", "facet"};
-    out["generators"].push_back(
-        {{"type", kNames[static_cast<int>(g.kind)]}, {"id", g.id}});
-  }
-  return out;
-}
-
 Json aspect_json(const Scene& scene, std::size_t id, const Aspect& aspect) {
   Json out{{"id", id},
            {"weight", or_null(aspect.weight)},
@@ -54,7 +41,7 @@ Json aspect_json(const Scene& scene, std::size_t id, const Aspect& aspect) {
   for (const AspectNeighbour& n : aspect.neighbours) {
     out["neighbours"].push_back(n.aspect);
     Json walls = Json::array();
-    for (const AspectWall& wall : n.walls) walls.push_back(wall_json(wall));
+    for (const AspectWall& wall : n.walls) walls.push_back(path_event_json(scene, wall));
     out["events"].push_back(std::move(walls));
   }
   return out;
@@ -78,6 +65,8 @@ Json aspects_json(const Scene& scene, const AspectGraph& graph, bool list) {
            {"views", graph.views},
            {"estimate", nullptr}};
   if (!graph.why.empty()) out["why"] = graph.why;
+  for (const AspectGraph::Round& round : graph.rounds)
+    out["rounds"].push_back({{"views", round.views}, {"aspects", round.aspects}});
   if (graph.unbounded) {
     out["unbounded"] = *graph.unbounded;
     out["bounded"] = *graph.bounded;

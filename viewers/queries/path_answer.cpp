@@ -9,6 +9,13 @@ std::string_view name(PathEventKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
+Json path_event_json(const Scene& scene, const PathEvent& event) {
+  Json generators = Json::array();
+  for (const Generator& g : event.generators)
+    generators.push_back(generator_json(scene, g));
+  return {{"kind", name(event.kind)}, {"generators", std::move(generators)}};
+}
+
 Json path_events_json(const Scene& scene, const ViewPath& path) {
   Json list = Json::array();
   for (const PathChange& change : path.changes) {
@@ -19,17 +26,13 @@ Json path_events_json(const Scene& scene, const ViewPath& path) {
         {"edges", d.edges},          {"regions", d.regions},
         {"components", d.components}};
     for (const PathEvent& event : change.events) {
-      Json generators = Json::array();
-      for (const Generator& g : event.generators) {
-        generators.push_back(generator_json(scene, g));
-      }
-      list.push_back({{"u", change.u},
-                      {"segment", change.segment},
-                      {"kind", name(event.kind)},
-                      {"generators", std::move(generators)},
-                      {"appears", change.appears},
-                      {"vanishes", change.vanishes},
-                      {"changes", changes}});
+      Json told = path_event_json(scene, event);
+      told.update(Json{{"u", change.u},
+                       {"segment", change.segment},
+                       {"appears", change.appears},
+                       {"vanishes", change.vanishes},
+                       {"changes", changes}});
+      list.push_back(std::move(told));
     }
   }
   return list;

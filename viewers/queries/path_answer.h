@@ -12,6 +12,9 @@ namespace sightline::viewers {
 // The words of CONTRACT.md, section look.
 [[nodiscard]] std::string_view name(PathEventKind kind);  ///< "EV", "through", ...
 
+/// {"kind", "generators"}.
+[[nodiscard]] Json path_event_json(const Scene& scene, const PathEvent& event);
+
 /// "events" in the answer of `sightline look --path`: where several happen at one
 /// position, each tells what all of them change.
 [[nodiscard]] Json path_events_json(const Scene& scene, const ViewPath& path);

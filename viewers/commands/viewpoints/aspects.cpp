@@ -102,8 +102,9 @@ Command add_aspects_command(CLI::App& app) {
       ->required()
       ->check(one_of({"orthographic", "perspective"}));
   command
-      ->add_option("--method", options->method,
-                   "exact, or from samples of view space alone")
+      ->add_option(
+          "--method", options->method,
+          "exact; from samples of view space; or refined by the events between samples")
       ->check(one_of({"sampled", "refined", "exact"}))
       ->capture_default_str();
   command
@@ -142,7 +143,7 @@ Command add_aspects_command(CLI::App& app) {
   add_common_options(*command, *options);
   command->footer(
       "An aspect is a connected region of viewpoints with one view.  Exact graphs are of "
-      "one convex\nsolid so far; of other scenes the graph is sampled and says so. "
+      "one convex\nsolid so far; of other scenes the graph is refined and says so. "
       "Definitions and methods:\ndocs/aspects.md.\n"
       "Examples:\n"
       "  sightline aspects cube.obj --projection orthographic\n"
