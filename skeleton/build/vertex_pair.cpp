@@ -160,7 +160,8 @@ SideAgainstEdge<Cut> VertexViewer::side_against(Pair& pair, int face, std::size_
 }
 
 // What a face hides is the part of the edge over which it is seen, as far as that is
-// behind the face's plane.
+// behind the face's plane.  LineViewer::overlap() finds the same for any eye;
+// docs/point_view.md tells what else the two have in common, and why the rest is apart.
 void VertexViewer::add_blocker(Pair& pair, int face) {
   const Face& f = scene_.faces()[face];
   const bool own = contains(own_objects_, f.object);
