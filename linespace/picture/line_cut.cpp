@@ -1,6 +1,7 @@
 #include "linespace/picture/line_cut.h"
 
 #include <cmath>
+#include <tuple>
 
 namespace sightline::internal {
 namespace {
@@ -63,6 +64,17 @@ LineCut LineCuts::weighted(LineCut cut, LongValue at0, LongValue at1) const {
 LineCut LineCuts::at_side(int p, int q) const {
   return weighted({.kind = LineCut::Kind::Side, .p = p, .q = q},
                   eye_->orient_value(p, q, ends_[0]), eye_->orient_value(p, q, ends_[1]));
+}
+
+SideAgainstEdge<LineCut> LineCuts::against(int left, int right, int line) const {
+  SideAgainstEdge<LineCut> side{
+      eye_->orient(left, right, ends_[0]), eye_->orient(left, right, ends_[1]), {}};
+  if (side.start == Sign::Negative && side.end == Sign::Positive) {
+    if (line >= 0)
+      std::tie(left, right) = std::tuple_cat(eye_->scene().lines()[line].ends);
+    side.at = at_side(left, right);
+  }
+  return side;
 }
 
 LineCut LineCuts::at_plane(int face) const {

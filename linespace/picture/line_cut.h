@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "linespace/picture/eye_space.h"
+#include "linespace/swaths/outline_stretch.h"
 
 namespace sightline::internal {
 
@@ -36,12 +37,18 @@ struct LineCut {
 class LineCuts {
  public:
   LineCuts(const EyeSpace& eye, int line)
-      : eye_(&eye), ends_(eye.scene().lines()[line].ends) {}
+      : eye_(&eye), line_(line), ends_(eye.scene().lines()[line].ends) {}
+  [[nodiscard]] int line() const { return line_; }
 
   /// Requires that the ends are seen on different sides of the line pq, neither on it.
   [[nodiscard]] LineCut at_side(int p, int q) const;
   /// Requires that the ends lie on different sides of the face's plane, neither in it.
   [[nodiscard]] LineCut at_plane(int face) const;
+
+  /// For narrow_to_outline(): a side of something seen, from a point seen on the left of
+  /// this line to one seen on the right.  `line`: of which the side is a part, for then
+  /// all that end there give the same cut; -1: of none.
+  [[nodiscard]] SideAgainstEdge<LineCut> against(int left, int right, int line) const;
 
   [[nodiscard]] std::strong_ordering compare(const LineCut& a, const LineCut& b) const;
 
@@ -59,6 +66,7 @@ class LineCuts {
   [[nodiscard]] LineCut weighted(LineCut cut, LongValue at0, LongValue at1) const;
 
   const EyeSpace* eye_;
+  int line_;
   std::array<int, 2> ends_;
 };
 

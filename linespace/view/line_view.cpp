@@ -125,6 +125,17 @@ void LineViewer::suspect_corner(int line, int corner) {
   if (!eye_->scene().in_line(a, b, corner)) suspects_.push_back({corner, line, {}, {}});
 }
 
+// Those ends of a line, seen on the line of side k of a face, for which `nearer` is
+// Negative: the face is nearer.
+void LineViewer::suspect_ends(int line, int face, std::size_t k,
+                              const std::array<Sign, 2>& nearer) {
+  const int own = eye_->scene().line_of_side(face, static_cast<int>(k));
+  for (int i = 0; i < 2; ++i) {
+    if (nearer[i] == Sign::Negative)
+      suspect_corner(own >= 0 ? own : line, eye_->scene().lines()[line].ends[i]);
+  }
+}
+
 // Faces that sight may meet on its way to the line.
 void LineViewer::find_faces(int line) {
   faces_.clear();
@@ -163,11 +174,18 @@ std::optional<LineViewer::Cover> LineViewer::overlap(int line, int face,
 
   // On which sides of the line the face is seen.
   Cover cover{face, line_start(), line_finish(), false, false, false};
+  corner_signs_.clear();
+  std::size_t in_line = 0;  // corners seen in line with it
   for (const int c : corners) {
-    const Sign s = eye_->orient(a, b, c);
-    cover.left |= s == Sign::Positive;
-    cover.right |= s == Sign::Negative;
+    const Sign right = eye_->orient(b, a, c);
+    corner_signs_.push_back(right);
+    cover.left |= right == Sign::Negative;
+    cover.right |= right == Sign::Positive;
+    in_line += right == Sign::Zero ? 1 : 0;
   }
+  // What lies beside the line, or touches it in a corner, covers none of it.
+  const bool across = cover.left && cover.right;
+  if (!across && in_line == 0) return std::nullopt;
   // Only what is nearer than the line, or contains it, counts.
   const Sign before_a = eye_->before(face, a);
   const Sign before_b = eye_->before(face, b);
@@ -177,51 +195,52 @@ std::optional<LineViewer::Cover> LineViewer::overlap(int line, int face,
   }
   cover.hides = before_a != Sign::Zero || before_b != Sign::Zero;
   if (cover.hides) {
-    for (const int c : corners) {
-      if (eye_->orient(a, b, c) == Sign::Zero) suspect_corner(line, c);
+    for (std::size_t k = 0; k < n; ++k) {
+      if (corner_signs_[k] != Sign::Zero) continue;
+      suspect_corner(line, corners[k]);
+      if (corner_signs_[k + 1 < n ? k + 1 : 0] == Sign::Zero)
+        suspect_ends(line, face, k, {before_a, before_b});
     }
   }
-
-  // The part of the line that is seen within the face, side by side.
-  const auto later = [&](const LineCut& x, const LineCut& y) {
-    return cuts.compare(x, y) > 0;
-  };
-  const bool front = eye_->front(face) == Sign::Positive;
-  for (std::size_t k = 0; k < n; ++k) {
-    int p = corners[k];
-    int q = corners[(k + 1) % n];
-    const int own = eye_->scene().line_of_side(face, static_cast<int>(k));
-    const Sign at_a = front ? eye_->orient(p, q, a) : eye_->orient(q, p, a);
-    const Sign at_b = front ? eye_->orient(p, q, b) : eye_->orient(q, p, b);
-    const int line_there = own >= 0 ? own : line;
-    if (at_a == Sign::Zero && before_a == Sign::Negative) suspect_corner(line_there, a);
-    if (at_b == Sign::Zero && before_b == Sign::Negative) suspect_corner(line_there, b);
-    if (at_a == Sign::Zero && at_b == Sign::Zero) {
-      along_ |= cover.hides && own >= 0;
-      continue;
-    }
-    if (at_a != Sign::Positive && at_b != Sign::Positive) return std::nullopt;
-    if (at_a != Sign::Negative && at_b != Sign::Negative) continue;
-    // Named by the whole line, so that faces beside each other give the same cut.
-    if (own >= 0) std::tie(p, q) = std::tuple_cat(eye_->scene().lines()[own].ends);
-    const LineCut cut = cuts.at_side(p, q);
-    if (at_a == Sign::Negative) {
-      if (later(cut, cover.from)) cover.from = cut;
-    } else if (later(cover.to, cut)) {
-      cover.to = cut;
-    }
-  }
+  if (!across && in_line < 2) return std::nullopt;
+  if (!narrow_to_face(cover, face, cuts, {before_a, before_b})) return std::nullopt;
   // The part of that which lies behind the face.
   if (before_a * before_b == Sign::Negative) {
-    const LineCut cut = cuts.at_plane(face);
-    if (before_a == Sign::Positive) {
-      if (later(cut, cover.from)) cover.from = cut;
-    } else if (later(cover.to, cut)) {
-      cover.to = cut;
-    }
+    const auto before = [&](const LineCut& x, const LineCut& y) {
+      return cuts.compare(x, y) < 0;
+    };
+    narrow_to_behind(cover, before_a == Sign::Negative, cuts.at_plane(face), before);
+    if (!before(cover.from, cover.to)) return std::nullopt;
   }
-  if (!later(cover.to, cover.from)) return std::nullopt;
   return cover;
+}
+
+// Narrows the cover to the part of the line that is seen within the face; `before`: of
+// the line's ends, as EyeSpace::before() has it.
+bool LineViewer::narrow_to_face(Cover& cover, int face, const LineCuts& cuts,
+                                const std::array<Sign, 2>& before) {
+  const ViewScene& scene = eye_->scene();
+  const auto corners = scene.scene().face_points(face);
+  const std::size_t n = corners.size();
+  const auto next = [&](std::size_t k) { return k + 1 < n ? k + 1 : 0; };
+  const auto corners_of = [&](std::size_t k) {
+    return std::array{corner_signs_[k], corner_signs_[next(k)]};
+  };
+  const auto against = [&](std::size_t k, bool to_right) {
+    const int p = corners[to_right ? k : next(k)];
+    const int q = corners[to_right ? next(k) : k];
+    const auto side = cuts.against(p, q, scene.line_of_side(face, static_cast<int>(k)));
+    const std::array<Sign, 2> nearer{side.start == Sign::Zero ? before[0] : Sign::Zero,
+                                     side.end == Sign::Zero ? before[1] : Sign::Zero};
+    suspect_ends(cuts.line(), face, k, nearer);
+    return side;
+  };
+  if (!narrow_to_outline(cover, n, eye_->front(face), corners_of, against)) return false;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (corners_of(k) != std::array{Sign::Zero, Sign::Zero}) continue;
+    along_ |= cover.hides && scene.line_of_side(face, static_cast<int>(k)) >= 0;
+  }
+  return true;
 }
 
 // Of faces that contain the line and are on one side of it, those seen just beside it.

@@ -89,10 +89,13 @@ class LineViewer {
   [[nodiscard]] std::optional<LinePiece> piece(int line, const Scan& scan,
                                                std::size_t i) const;
   void suspect_corner(int line, int corner);
+  void suspect_ends(int line, int face, std::size_t k, const std::array<Sign, 2>& nearer);
   void find_faces(int line);
   void add_cover(int line, int face);
   [[nodiscard]] std::optional<Cover> own_side(int line, int face) const;
   [[nodiscard]] std::optional<Cover> overlap(int line, int face, const LineCuts& cuts);
+  [[nodiscard]] bool narrow_to_face(Cover& cover, int face, const LineCuts& cuts,
+                                    const std::array<Sign, 2>& before);
   [[nodiscard]] SeenBeside nearest(std::span<const int> faces, int line, bool left) const;
 
   const EyeSpace* eye_;
@@ -102,6 +105,7 @@ class LineViewer {
   Bvh tree_;                  // over their boxes
   std::vector<int> faces_;
   std::vector<Cover> covers_;
+  std::vector<Sign> corner_signs_;  // of a face: Positive on the right of the line
   std::vector<Suspect> suspects_;
   bool along_ = false;  // some nearer side is seen along the line
 };

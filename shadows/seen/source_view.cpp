@@ -6,10 +6,6 @@
 namespace sightline::internal {
 namespace {
 
-bool later(const LineCuts& cuts, const LineCut& x, const LineCut& y) {
-  return cuts.compare(x, y) > 0;
-}
-
 // Towards a point.  For an eye on the scene a short way says the same as a long one and
 // meets the planes of fewer faces.
 ExactPoint short_way(const ExactPoint& from, const ExactPoint& to) {
@@ -226,32 +222,29 @@ std::vector<SourceView::Line> SourceView::lines_to_ask() const {
   return lines;
 }
 
-std::optional<SourceView::Cover> SourceView::cover(const std::array<int, 2>& ends,
-                                                   const LineCuts& cuts,
-                                                   const Shade& shade) const {
-  const auto [a, b] = ends;
+std::optional<SourceView::Cover> SourceView::cover(const LineCuts& cuts,
+                                                   const Shade& shade) {
+  const auto [a, b] = scene_.lines()[cuts.line()].ends;
   Cover cover{line_start(), line_finish(), false, false, false, false};
+  corner_signs_.clear();
+  std::size_t in_line = 0;  // corners seen in line with the line
   for (const Shade::Side& side : shade.sides) {
-    const Sign s = eye_->orient(a, b, side.ends[0]);
-    cover.left |= s == Sign::Positive;
-    cover.right |= s == Sign::Negative;
+    const std::array<Sign, 2> right{eye_->orient(b, a, side.ends[0]),
+                                    eye_->orient(b, a, side.ends[1])};
+    corner_signs_.push_back(right);
+    cover.left |= right[0] == Sign::Negative;
+    cover.right |= right[0] == Sign::Positive;
+    in_line += right[0] == Sign::Zero ? 1 : 0;
   }
-  for (const Shade::Side& side : shade.sides) {
-    auto [p, q] = side.ends;
-    const Sign at_a = eye_->orient(p, q, a), at_b = eye_->orient(p, q, b);
-    if (at_a == Sign::Zero && at_b == Sign::Zero) continue;
-    if (at_a != Sign::Positive && at_b != Sign::Positive) return std::nullopt;
-    if (at_a != Sign::Negative && at_b != Sign::Negative) continue;
-    // Named by the whole line, so that shades beside each other give the same cut.
-    if (side.line >= 0) std::tie(p, q) = std::tuple_cat(scene_.lines()[side.line].ends);
-    const LineCut cut = cuts.at_side(p, q);
-    if (at_a == Sign::Negative) {
-      if (later(cuts, cut, cover.from)) cover.from = cut;
-    } else if (later(cuts, cover.to, cut)) {
-      cover.to = cut;
-    }
-  }
-  if (!later(cuts, cover.to, cover.from)) return std::nullopt;
+  if (!(cover.left && cover.right) && in_line < 2) return std::nullopt;
+  const bool meets = narrow_to_outline(
+      cover, shade.sides.size(), Sign::Positive,
+      [&](std::size_t k) { return corner_signs_[k]; },
+      [&](std::size_t k, bool to_right) {
+        const auto [p, q] = shade.sides[k].ends;
+        return cuts.against(to_right ? p : q, to_right ? q : p, shade.sides[k].line);
+      });
+  if (!meets) return std::nullopt;
   return cover;
 }
 
@@ -299,7 +292,7 @@ void SourceView::view(const Line& line) {
   const std::array<int, 2> ends = scene_.lines()[line.line].ends;
   covers_.clear();
   for (std::size_t i = 0; i < shades_.size(); ++i) {
-    auto found = cover(ends, cuts, shades_[i]);
+    auto found = cover(cuts, shades_[i]);
     if (!found) {
       // A line on which no point of the source is seen, or beside it, bounds nothing.
       if (i + 1 == source_shades_ && covers_.empty()) return;

@@ -71,9 +71,7 @@ class SourceView {
   [[nodiscard]] bool covers_all(const Shade& shade) const;
   [[nodiscard]] std::vector<Line> lines_to_ask() const;
   void view(const Line& line);
-  [[nodiscard]] std::optional<Cover> cover(const std::array<int, 2>& ends,
-                                           const LineCuts& cuts,
-                                           const Shade& shade) const;
+  [[nodiscard]] std::optional<Cover> cover(const LineCuts& cuts, const Shade& shade);
   [[nodiscard]] std::optional<Cover> below_horizon(int line, const LineCuts& cuts) const;
   [[nodiscard]] std::array<bool, 2> into_material(int line, const LineCuts& cuts,
                                                   const LineCut& from,
@@ -89,7 +87,9 @@ class SourceView {
   bool ask_star_ = false;  // sight into material is free for a part of the source only
   bool any_seen_ = false, any_hidden_ = false;
   std::vector<LinePiece> pieces_;
-  std::vector<Cover> covers_;  // scratch
+  // Scratch.
+  std::vector<Cover> covers_;
+  std::vector<std::array<Sign, 2>> corner_signs_;  // by side: Positive on the right
 };
 
 }  // namespace sightline::internal

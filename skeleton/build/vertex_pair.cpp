@@ -8,6 +8,7 @@
 
 #include "linespace/silhouettes/plane_values.h"
 #include "linespace/silhouettes/star_turns.h"
+#include "linespace/swaths/outline_stretch.h"
 
 namespace sightline::internal {
 namespace {
@@ -125,113 +126,42 @@ bool VertexViewer::crosses_plane(Pair& pair, int face, std::span<Sign> signs) {
   return true;
 }
 
-// The segment in which a face crosses the plane of viewpoint and edge, told by the part
-// of the edge between the directions from the viewpoint to the segment's two ends.
-struct VertexViewer::Trace {
-  Cut from, to;              // counter-clockwise around the viewpoint
-  bool misses = false;       // no direction to the segment is one to the edge
-  bool from_behind = false;  // the direction to that end is opposite to one to the edge
-  bool to_behind = false;
-};
-
-// `here`: the side of the face's plane that the viewpoint is on; `apart` as in may_hide.
-VertexViewer::Trace VertexViewer::trace_of(Pair& pair, int face,
-                                           std::span<const Sign> signs, Sign here,
-                                           bool apart) const {
-  const auto corners = scene_.face_points(face);
-  const std::size_t n = signs.size();
-  Trace trace;
-  for (std::size_t k = 0; k < n && !trace.misses; ++k) {
-    const std::size_t next = (k + 1) % n;
-    if (signs[k] == Sign::Zero) {
-      // The trace ends in an end point of the edge.
-      const Sign before = signs[(k + n - 1) % n];
-      const Sign after = signs[next];
-      if (before == after || before == Sign::Zero || after == Sign::Zero) continue;
-      const bool rising = before == Sign::Negative;
-      const bool begins = rising == (here == Sign::Positive);
-      const bool at_start = corners[k] == pair.r->points[0];
-      (begins ? trace.from : trace.to) = at_start ? start_cut() : end_cut();
-      trace.misses |= begins ? !at_start : at_start;
-      continue;
-    }
-    if (signs[next] == Sign::Zero || signs[next] == signs[k]) continue;
-    // The trace ends on this side.  Where the side leads from behind the pair's plane to
-    // the front of it the trace begins, seen from the face's front.
-    const bool rising = signs[k] == Sign::Negative;
-    const bool begins = rising == (here == Sign::Positive);
-    end_on_side(pair, face, static_cast<int>(k), rising, begins, apart, trace);
-  }
-  return trace;
-}
-
-// The end of a trace on side k of the face: `begins` tells which end.
-void VertexViewer::end_on_side(Pair& pair, int face, int k, bool rising, bool begins,
-                               bool apart, Trace& trace) const {
+// Side k of a face, which leads to the right of the edge or to its left, against the
+// edge; `apart` as in may_hide.
+SideAgainstEdge<Cut> VertexViewer::side_against(Pair& pair, int face, std::size_t k,
+                                                bool to_right, bool apart) const {
   const auto corners = scene_.face_points(face);
   const int tail = corners[k];
-  const int head = corners[(k + 1) % corners.size()];
-  const int p = rising ? head : tail;  // in front of the pair's plane
-  const int q = rising ? tail : head;  // behind it
+  const int head = corners[k + 1 < corners.size() ? k + 1 : 0];
+  for (const int c : {tail, head}) {  // the face ends in an end point of the edge
+    if (c == pair.r->points[0]) return {Sign::Zero, Sign::Positive, {}};
+    if (c == pair.r->points[1]) return {Sign::Negative, Sign::Zero, {}};
+  }
+  const int p = to_right ? head : tail;  // in front of the pair's plane
+  const int q = to_right ? tail : head;  // behind it
   const PlaneSide side_plane({at_, scene_.point(p), scene_.point(q)});
   const PlaneValues on_edge = plane_values(side_plane, pair.e0, pair.e1);
   const auto& [x0, x1, s0, s1] = on_edge;
   pair.mild |= on_edge.zero_at_end();
-  // Negative s0: to the left of the ray to e0; positive s1: to the right of that to e1.
-  if (s0 == Sign::Negative && s1 == Sign::Positive) {
-    const int edge = scene_.edge_of_side(face, k);
-    Cut cut =
-        make_cut(CutKind::Side, edge, {point_, std::min(p, q), std::max(p, q)}, x0, x1);
-    if (edge >= 0 && !apart) {
-      // A side of a face at the viewpoint: its plane is that face's.
-      for (const Edge::Side& s : scene_.edges()[edge].sides) {
-        const int facet = scene_.faces()[s.face].facet;
-        if (!at_viewpoint(facet)) continue;
-        cut.kind = CutKind::Support;
-        cut.feature = facet;
-      }
+  if (s0 != Sign::Negative || s1 != Sign::Positive) return {s0, s1, {}};
+  const int edge = scene_.edge_of_side(face, static_cast<int>(k));
+  Cut cut =
+      make_cut(CutKind::Side, edge, {point_, std::min(p, q), std::max(p, q)}, x0, x1);
+  if (edge >= 0 && !apart) {
+    // A side of a face at the viewpoint: its plane is that face's.
+    for (const Edge::Side& s : scene_.edges()[edge].sides) {
+      const int facet = scene_.faces()[s.face].facet;
+      if (!at_viewpoint(facet)) continue;
+      cut.kind = CutKind::Support;
+      cut.feature = facet;
     }
-    pair.keep(cut);
-    (begins ? trace.from : trace.to) = cut;
-  } else if (begins) {
-    trace.from_behind = s0 == Sign::Positive && s1 == Sign::Negative;
-    trace.from = start_cut();
-    trace.misses |= !(s0 == Sign::Positive || (s0 == Sign::Zero && s1 == Sign::Positive));
-  } else {
-    trace.to_behind = s0 == Sign::Positive && s1 == Sign::Negative;
-    trace.to = end_cut();
-    trace.misses |= !(s1 == Sign::Negative || (s1 == Sign::Zero && s0 == Sign::Negative));
   }
+  return {s0, s1, pair.keep(cut)};
 }
 
-// Closes the part of the edge between the directions to the trace's ends, as far as it
-// lies beyond the face's plane; `there`: that plane's values at the ends of the edge.
-void VertexViewer::close_beyond(Pair& pair, int face, const Trace& trace, Sign here,
-                                const PlaneValues& there) const {
-  const auto& [from, to, misses, from_behind, to_behind] = trace;
-  if (misses || (from_behind && to_behind)) return;
-  const bool beyond0 = there.sign0 == -here;
-  const bool beyond1 = there.sign1 == -here;
-  if ((beyond0 && beyond1) || there.zero_at_end()) {
-    pair.close(from, to);
-    return;
-  }
-  // The plane of the face separates the viewpoint from one part of the edge only.
-  const Cut pierce =
-      pair.keep(make_cut(CutKind::Pierce, scene_.faces()[face].facet,
-                         plane_points(scene_, face), there.at0, there.at1));
-  const auto before = [&](const Cut& x, const Cut& y) {
-    return compare(scene_, {pair.e0, pair.e1}, x, y) == Sign::Negative;
-  };
-  if (beyond0) {
-    pair.close(from, before(pierce, to) ? pierce : to);
-  } else {
-    pair.close(before(from, pierce) ? pierce : from, to);
-  }
-}
-
-// The face's trace in the plane of viewpoint and edge is a segment; what it hides is the
-// part of the edge within its two ends' directions and behind the face's plane.
+// What a face hides is the part of the edge over which it is seen, as far as that is
+// behind the face's plane.  LineViewer::overlap() finds the same for any eye;
+// docs/point_view.md tells what else the two have in common, and why the rest is apart.
 void VertexViewer::add_blocker(Pair& pair, int face) {
   const Face& f = scene_.faces()[face];
   const bool own = contains(own_objects_, f.object);
@@ -253,9 +183,30 @@ void VertexViewer::add_blocker(Pair& pair, int face) {
     return;  // a line comes in by a face in front, which hides no less
   }
   const PlaneValues there = plane_values(face_plane, pair.e0, pair.e1);
-  if (there.sign0 != -here && there.sign1 != -here) return;  // wholly in front of it
+  const bool beyond0 = there.sign0 == -here;
+  const bool beyond1 = there.sign1 == -here;
+  if (!beyond0 && !beyond1) return;  // the edge is wholly in front of it
   const bool apart = star_->convex && !own;
-  close_beyond(pair, face, trace_of(pair, face, signs, here, apart), here, there);
+  CutInterval hidden{start_cut(), end_cut()};
+  const bool seen = narrow_to_outline(
+      hidden, n, here,
+      [&](std::size_t k) {
+        return std::array{signs[k], signs[k + 1 < n ? k + 1 : 0]};
+      },
+      [&](std::size_t k, bool to_right) {
+        return side_against(pair, face, k, to_right, apart);
+      });
+  if (!seen) return;
+  // Where the face's plane separates the viewpoint from a part of the edge only.
+  if (beyond0 != beyond1 && !there.zero_at_end()) {
+    const Cut pierce =
+        pair.keep(make_cut(CutKind::Pierce, scene_.faces()[face].facet,
+                           plane_points(scene_, face), there.at0, there.at1));
+    narrow_to_behind(hidden, beyond0, pierce, [&](const Cut& x, const Cut& y) {
+      return compare(scene_, {pair.e0, pair.e1}, x, y) == Sign::Negative;
+    });
+  }
+  pair.close(hidden.from, hidden.to);
 }
 
 // A side of the face lies in the plane of the pair, all else of the face on one side of

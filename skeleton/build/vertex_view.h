@@ -17,6 +17,7 @@
 #include "linespace/silhouettes/silhouettes.h"
 #include "linespace/space/shaft.h"
 #include "linespace/swaths/edge_cuts.h"
+#include "linespace/swaths/outline_stretch.h"
 #include "skeleton/build/part.h"
 #include "skeleton/graph.h"
 #include "skeleton/skeleton_lines.h"
@@ -116,15 +117,10 @@ class VertexViewer {
   [[nodiscard]] bool on_one_side(const Pair& pair, int face);
   bool add_blockers(Pair& pair);
   void add_blocker(Pair& pair, int face);
-  struct Trace;  // of a face in the plane of the pair
   [[nodiscard]] bool may_hide(const Pair& pair, const Face& face, bool own) const;
   [[nodiscard]] bool crosses_plane(Pair& pair, int face, std::span<Sign> signs);
-  [[nodiscard]] Trace trace_of(Pair& pair, int face, std::span<const Sign> signs,
-                               Sign here, bool apart) const;
-  void end_on_side(Pair& pair, int face, int k, bool rising, bool begins, bool apart,
-                   Trace& trace) const;
-  void close_beyond(Pair& pair, int face, const Trace& trace, Sign here,
-                    const PlaneValues& there) const;
+  [[nodiscard]] SideAgainstEdge<Cut> side_against(Pair& pair, int face, std::size_t k,
+                                                  bool to_right, bool apart) const;
   void list_faces(Pair& pair) const;
   [[nodiscard]] bool continues_across(int face, std::span<const Sign> signs) const;
   [[nodiscard]] bool touching_across(const Pair& pair) const;

@@ -11,6 +11,10 @@
 //     processor time, arcs, the share of signs that took exact numbers; the exponents
 //     with which arcs and processor time grew since the size before; processor time an
 //     arc over that of the random city.
+//   skeleton_scaling CITY POLYGONS views
+//     processor time, in one thread, of the EV arcs of all corners in both modes, and of
+//     the exact views from the same corners: the pieces of lines that they see
+//     (`pieces`), and all of them (`views`).
 //   skeleton_scaling CITY POLYGONS [ev] [polygon]
 //     one of these, with a hash of the whole answer: CITY is random, street, square, sunk
 //     or floating (both street cities), square-sunk or touching (a grid city).
@@ -28,7 +32,12 @@
 #include <string>
 #include <vector>
 
+#include "linespace/picture/eye_star.h"
+#include "linespace/picture/view_window.h"
+#include "linespace/point_view.h"
 #include "linespace/scene.h"
+#include "linespace/view/line_view.h"
+#include "linespace/view/possibly_seen.h"
 #include "skeleton/build.h"
 #include "tests/support/generators.h"
 
@@ -268,6 +277,56 @@ void streets(int largest, const SkeletonRequest& request) {
   }
 }
 
+/// How many pieces of edges an eye sees, found as its view finds them.
+std::size_t pieces_from(const internal::ViewScene& scene, const Point& eye) {
+  const internal::EyeSpace space(scene, eye_at(eye));
+  const auto seen = internal::possibly_seen(space);
+  const internal::EyeStar star(space);
+  const internal::Window window(space);
+  internal::LineViewer viewer(space, star, window, seen);
+  std::vector<std::uint8_t> asked(scene.lines().size());
+  std::vector<internal::LinePiece> pieces;
+  for (int f = 0; f < static_cast<int>(seen.size()); ++f) {
+    if (seen[f] == 0) continue;
+    for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
+      const int line = scene.line_of_side(f, k);
+      if (line >= 0 && asked[line]++ == 0) viewer.view(line, pieces);
+    }
+  }
+  return pieces.size();
+}
+
+void views(const std::string& city, int polygons) {
+  const Scene scene(city_of(city, polygons));
+  const PointViewIndex index(scene);
+  double start = processor_seconds();
+  const auto lap = [&] {
+    const double before = start;
+    start = processor_seconds();
+    return start - before;
+  };
+  std::printf("city,polygons,corners,ev,ev_polygon,pieces,views\n%s,%zu,%zu",
+              city.c_str(), scene.faces().size(), scene.corners().size());
+  for (const EventMode mode : {EventMode::Solid, EventMode::Polygon}) {
+    SkeletonRequest request;
+    request.eee = false;
+    request.threads = 1;
+    request.events = mode;
+    lap();
+    const std::size_t arcs = build_skeleton(scene, request).arcs.size();
+    std::printf(",%.2f", lap());
+    std::fprintf(stderr, "%zu arcs\n", arcs);
+  }
+  std::size_t pieces = 0, edges = 0;
+  for (const int corner : scene.corners())
+    pieces += pieces_from(index.shared(), scene.point(corner));
+  std::printf(",%.2f", lap());
+  for (const int corner : scene.corners())
+    edges += index.view(eye_at(scene.point(corner))).edges.size();
+  std::printf(",%.2f\n", lap());
+  std::fprintf(stderr, "%zu pieces, %zu edges of maps\n", pieces, edges);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -292,7 +351,12 @@ int main(int argc, char** argv) {
     streets(std::atoi(argv[2]), request);
     return 0;
   }
-  if (std::find(kCities.begin(), kCities.end(), what) != kCities.end() && argc > 2) {
+  const bool is_city = std::find(kCities.begin(), kCities.end(), what) != kCities.end();
+  if (is_city && argc > 3 && std::strcmp(argv[3], "views") == 0) {
+    views(what, std::atoi(argv[2]));
+    return 0;
+  }
+  if (is_city && argc > 2) {
     const Row row = measure(city_of(what, std::atoi(argv[2])), request);
     std::printf("%s,hash\n", kCityHeader);
     print_city(what.c_str(), row);
@@ -304,6 +368,6 @@ int main(int argc, char** argv) {
                "       skeleton_scaling polytopes|city LARGEST [double]\n"
                "       skeleton_scaling streets LARGEST [ev] [polygon]\n"
                "       skeleton_scaling random|street|square|sunk|square-sunk|floating|"
-               "touching POLYGONS [ev] [polygon]\n");
+               "touching POLYGONS views|[ev] [polygon]\n");
   return 2;
 }
