@@ -32,6 +32,12 @@
 
 namespace sightline {
 
+/// What a mesh file says.
+struct MeshFile : PolygonSoup {
+  /// Polygons whose material emits light, ascending: glTF, an emissiveFactor above 0.
+  std::vector<int> emitting;
+};
+
 /// The polygons of a mesh file, its format told by the extension, or by `format`, an
 /// extension too; "-" is standard input.  Names of groups come
 /// from `o` and `g` lines of OBJ, `solid` lines of ASCII STL and nodes of scene formats;
@@ -41,8 +47,8 @@ namespace sightline {
 /// InvalidInput with one line that names file and line, byte or element; nothing is
 /// allocated beyond a small multiple of the file's size.  Of the request, budget, stop
 /// and progress count; throws Stopped.
-[[nodiscard]] PolygonSoup read_mesh(const std::string& path, const Request& request = {},
-                                    const std::string& format = {});
+[[nodiscard]] MeshFile read_mesh(const std::string& path, const Request& request = {},
+                                 const std::string& format = {});
 
 /// Files that read_mesh would read besides this one: the buffers of glTF.  None where it
 /// would refuse the file.

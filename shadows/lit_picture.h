@@ -43,4 +43,18 @@ struct LitPixel {
                                                 std::uint64_t seed,
                                                 const Request& request = {});
 
+/// The same with rays = 0 at a fraction of the cost, for people to look at.  Kind and
+/// face of every pixel are those of lit_picture(), and so are values on a grid, one pixel
+/// of eight.  The grid is refined until it has every pixel: one whose four neighbours
+/// show its facet, none of them dark where another is not, and differ by at most
+/// `tolerance` times the brightest pixel of the first grid, has their mean, and all
+/// others are exact. What changes only between the pixels of the grid is not seen.
+/// Requires tolerance >= 0. Throws as lit_picture().
+[[nodiscard]] std::vector<LitPixel> smooth_lit_picture(const OcclusionIndex& occlusion,
+                                                       const BackprojectionIndex& light,
+                                                       const LightSource& source,
+                                                       const PictureCamera& camera,
+                                                       double tolerance,
+                                                       const Request& request = {});
+
 }  // namespace sightline

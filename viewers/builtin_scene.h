@@ -10,5 +10,7 @@ namespace sightline::viewers {
 /// The file's name and its bytes.
 inline constexpr std::string_view kBuiltinSceneName = "room.obj";
 [[nodiscard]] std::string_view builtin_scene();
+/// The group of it that is a light.
+inline constexpr std::string_view kBuiltinSceneLight = "lamp_shade";
 
 }  // namespace sightline::viewers

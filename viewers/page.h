@@ -18,10 +18,11 @@ struct PagePicture {
 };
 
 /// The page for a report.json of `analyse`: pictures of the skeleton, the first of them
-/// large, and of views.  All are inlined.
+/// large, of views, and of the scene under its light.  All are inlined.
 [[nodiscard]] std::string report_page(const Json& report,
                                       const std::vector<PagePicture>& pictures,
-                                      const std::vector<PagePicture>& views = {});
+                                      const std::vector<PagePicture>& views = {},
+                                      const std::vector<PagePicture>& light = {});
 
 /// RFC 4648.
 [[nodiscard]] std::string base64(const std::string& bytes);

@@ -9,6 +9,10 @@
 #include "skeleton/graph.h"
 #include "viewers/drawing.h"
 
+namespace sightline {
+struct Shadows;
+}
+
 namespace sightline::viewers {
 
 /// What goes into the files besides the scene; pointers may be null.
@@ -16,6 +20,8 @@ struct VtkContents {
   const Skeleton* skeleton = nullptr;
   /// Arcs drawn out to their far ends, as a block of their own.
   const std::vector<RuledStrip>* strips = nullptr;
+  /// Discontinuity meshes.
+  const Shadows* shadows = nullptr;
 };
 
 /// Writes into `folder` (made if need be) and returns the names of the files:
@@ -36,6 +42,17 @@ struct VtkContents {
 ///   nodes_VV.vtp, nodes_VEE.vtp, ...
 ///               an extremal line's part between its outermost contacts; node,
 ///               generators (text), self, end, kind, colour; of an EEEE also second
+///   shadow_faces.vtp
+///               the faces of discontinuity meshes, curves as chords; receiver (name),
+///               facet, face, class, structure, area (scene units squared).  A face that
+///               is not convex is cut into triangles and trapezoids; `face` tells which
+///               belong together
+///   shadow_edges.vtp
+///               their edges, a line for each chord; receiver, facet, edge, kind, order
+///               (-1 for none), left, right
+///   shadow_vertices.vtp
+///               their vertices; receiver, facet, vertex.  Numbers are those of the
+///               answer of `sightline shadows --list`
 ///   sightline.vtm
 ///               all of these as named blocks
 /// A cell of an EEE arc takes some 100 bytes and 60 a line of its strip, in memory and in

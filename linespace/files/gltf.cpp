@@ -337,12 +337,12 @@ class GltfReader {
  public:
   // `bytes`: of the file, its buffers not counted.
   GltfReader(const std::string& path, const tinygltf::Model& model, std::size_t bytes,
-             Stage& stage)
-      : path_(path), model_(model), bytes_(bytes), stage_(stage) {
+             const std::vector<bool>& emits, Stage& stage)
+      : path_(path), model_(model), emits_(emits), bytes_(bytes), stage_(stage) {
     for (const auto& buffer : model.buffers) bytes_ += buffer.data.size();
   }
 
-  PolygonSoup read() {
+  MeshFile read() {
     check_tree();
     const std::vector<int> roots = roots_of_scene();
     check_size(roots);
@@ -524,6 +524,11 @@ class GltfReader {
     const bool mirrored = to_world.linear().determinant() < 0;
     const std::size_t first_face = soup_.polygons.size();
     append_triangles(corners, primitive.mode);
+    if (emits_light(primitive, what)) {
+      for (std::size_t f = first_face; f < soup_.polygons.size(); ++f) {
+        soup_.emitting.push_back(static_cast<int>(f));
+      }
+    }
     // The corners become vertices of the soup in the order of their numbers.
     std::vector<int> used(corners);
     std::sort(used.begin(), used.end());
@@ -542,6 +547,16 @@ class GltfReader {
       }
       if (mirrored) std::reverse(polygon.begin(), polygon.end());
     }
+  }
+
+  bool emits_light(const tinygltf::Primitive& primitive, const std::string& what) const {
+    if (primitive.material < 0) return false;
+    const auto material = static_cast<std::size_t>(primitive.material);
+    if (material >= emits_.size()) {
+      refuse(path_, what + ": names material " + std::to_string(material) + " of " +
+                        std::to_string(emits_.size()));
+    }
+    return emits_[material];
   }
 
   // Numbers of positions, three a triangle or as a strip or fan has them.
@@ -621,9 +636,10 @@ class GltfReader {
 
   const std::string& path_;
   const tinygltf::Model& model_;
+  const std::vector<bool>& emits_;  // per material
   std::size_t bytes_;
   Stage& stage_;
-  PolygonSoup soup_;
+  MeshFile soup_;
   NodeGroups groups_;
   std::vector<int> parent_;  // per node, -1 for none
   std::vector<bool> used_;   // per node: in the scene that is read
@@ -648,11 +664,11 @@ Eigen::Matrix3d settled(Eigen::Matrix3d linear) {
   return is_turn ? turn : linear;
 }
 
-PolygonSoup read_gltf(const std::string& path, std::string_view bytes, Stage& stage) {
+MeshFile read_gltf(const std::string& path, std::string_view bytes, Stage& stage) {
   const CheckedGltf checked = check_gltf(path, bytes);
   try {
     const tinygltf::Model model = load_model(path, checked);
-    return GltfReader(path, model, bytes.size(), stage).read();
+    return GltfReader(path, model, bytes.size(), checked.emits, stage).read();
   } catch (const InvalidInput&) {
     throw;
   } catch (const Stopped&) {
@@ -666,7 +682,7 @@ PolygonSoup read_gltf(const std::string& path, std::string_view bytes, Stage& st
 
 #else
 
-PolygonSoup read_gltf(const std::string& path, std::string_view, Stage&) {
+MeshFile read_gltf(const std::string& path, std::string_view, Stage&) {
   refuse(path, "glTF needs tinygltf, which this build is without");
 }
 

@@ -13,12 +13,15 @@ namespace sightline::internal {
 struct CheckedGltf {
   /// JSON with scenes, nodes, meshes, accessors and buffers only, every member of the
   /// type that the format wants: tinygltf passes over members of a wrong type in silence.
-  /// Images, materials, animations and extras are left out.
+  /// Images, materials, animations and extras are left out; primitives keep the numbers
+  /// of their materials.
   std::string json;
   /// The buffer inside a .glb file; empty in others.
   std::string_view binary;
   /// The "byteLength" of each buffer that is a file of its own, in order.
   std::vector<std::size_t> file_sizes;
+  /// Of each material: whether it emits light, an emissiveFactor above 0.
+  std::vector<bool> emits;
 };
 
 /// Checks a .gltf or, by its first bytes, .glb file.  Throws InvalidInput for what is no

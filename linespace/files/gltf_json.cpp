@@ -78,7 +78,7 @@ class Checker {
   Checker(const std::string& path, bool has_binary)
       : path_(path), has_binary_(has_binary) {}
 
-  Json run(const Json& root, std::vector<std::size_t>& file_sizes) {
+  Json run(const Json& root, CheckedGltf& checked) {
     if (!root.is_object()) refuse(path_, "no glTF: the JSON is no object");
     check_asset(root);
     check_extensions(root);
@@ -90,11 +90,16 @@ class Checker {
     copy_list(root, copy, "accessors", &Checker::accessor);
     copy_list(root, copy, "bufferViews", &Checker::buffer_view);
     copy_list(root, copy, "buffers", &Checker::buffer);
+    copy_list(root, copy, "materials", &Checker::material);
     for (const Json& buffer : copy.value("buffers", Json::array())) {
       if (!buffer.contains("uri")) continue;
       if (buffer["uri"].get_ref<const std::string&>().starts_with("data:")) continue;
-      file_sizes.push_back(buffer["byteLength"].get<std::size_t>());
+      checked.file_sizes.push_back(buffer["byteLength"].get<std::size_t>());
     }
+    for (const Json& material : copy.value("materials", Json::array())) {
+      checked.emits.push_back(material["emits"].get<bool>());
+    }
+    copy.erase("materials");
     return copy;
   }
 
@@ -272,6 +277,7 @@ class Checker {
     copy_member(value, copy, "mode", where, &Checker::index);
     if (copy["mode"].get<int>() > 6) fail(where + ".mode", "is none of the format's");
     copy_member(value, copy, "indices", where, &Checker::index);
+    copy_member(value, copy, "material", where, &Checker::index);
     const auto attributes = value.find("attributes");
     if (attributes == value.end() || !attributes->is_object() ||
         !attributes->contains("POSITION")) {
@@ -281,6 +287,16 @@ class Checker {
     copy_member(*attributes, copy["attributes"], "POSITION", where + ".attributes",
                 &Checker::index);
     return copy;
+  }
+
+  // {"emits"}: whether some colour of its light is not black.
+  Json material(const Json& value, const std::string& where) const {
+    Json copy{{"emissiveFactor", Json::array({0, 0, 0})}};
+    copy_member(value, copy, "emissiveFactor", where, &Checker::three_numbers);
+    const Json& factor = copy["emissiveFactor"];
+    const bool emits = std::any_of(factor.begin(), factor.end(),
+                                   [](const Json& c) { return c.get<double>() > 0; });
+    return {{"emits", emits}};
   }
 
   Json accessor(const Json& value, const std::string& where) const {
@@ -350,8 +366,7 @@ CheckedGltf check_gltf(const std::string& path, std::string_view bytes) {
   checked.binary = chunks.binary;
   try {
     const Json root = Json::parse(chunks.json);
-    checked.json =
-        Checker(path, !chunks.binary.empty()).run(root, checked.file_sizes).dump();
+    checked.json = Checker(path, !chunks.binary.empty()).run(root, checked).dump();
   } catch (const Json::exception& error) {
     const std::string_view what = error.what();
     refuse(path, "no glTF: " + one_line(std::string(what.substr(what.find("] ") + 2))));

@@ -187,15 +187,25 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
+using SoupReader = PolygonSoup (*)(const std::string& path, std::string_view bytes,
+                                   Stage& stage);
+
+// Of a format that says nothing of light.
+template <SoupReader Read>
+MeshFile unlit(const std::string& path, std::string_view bytes, Stage& stage) {
+  return {Read(path, bytes, stage), {}};
+}
+
 struct Format {
   const char* extension;
-  PolygonSoup (*read)(const std::string& path, std::string_view bytes, Stage& stage);
+  MeshFile (*read)(const std::string& path, std::string_view bytes, Stage& stage);
 };
 constexpr Format kFormats[] = {
 #ifdef SIGHTLINE_HAS_TINYGLTF
-    {"glb", read_gltf}, {"gltf", read_gltf},
+    {"glb", read_gltf},       {"gltf", read_gltf},
 #endif
-    {"obj", read_obj},  {"off", read_off},   {"ply", read_ply}, {"stl", read_stl}};
+    {"obj", unlit<read_obj>}, {"off", unlit<read_off>},
+    {"ply", unlit<read_ply>}, {"stl", unlit<read_stl>}};
 
 void check_format(const std::string& path, const std::string& format) {
   const auto known = readable_extensions();
@@ -220,8 +230,8 @@ void check_there(const std::string& path) {
 }  // namespace
 }  // namespace internal
 
-PolygonSoup read_mesh(const std::string& path, const Request& request,
-                      const std::string& given_format) {
+MeshFile read_mesh(const std::string& path, const Request& request,
+                   const std::string& given_format) {
   using namespace internal;
   Stage stage(request, "reading");
   const std::string own = extension_of(path);
@@ -234,13 +244,13 @@ PolygonSoup read_mesh(const std::string& path, const Request& request,
   const auto* const reader =
       std::find_if(std::begin(kFormats), std::end(kFormats),
                    [&](const auto& f) { return format == f.extension; });
-  PolygonSoup soup;
+  MeshFile soup;
   if (reader != std::end(kFormats)) {
     soup = reader->read(name, bytes, stage);
   } else {
     // By its name, so that what stands beside it is found; else from memory.
     const bool by_name = format == own && path != kStandardInput;
-    soup = read_with_assimp({name, bytes, format, by_name}, stage);
+    soup = {read_with_assimp({name, bytes, format, by_name}, stage), {}};
   }
   soup.source = name;
   if (soup.polygons.empty()) refuse(name, "no faces");

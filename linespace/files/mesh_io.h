@@ -101,8 +101,8 @@ void append_strip_triangle(std::vector<std::vector<int>>& polygons,
                                    Stage& stage);
 [[nodiscard]] PolygonSoup read_ply(const std::string& path, std::string_view bytes,
                                    Stage& stage);
-[[nodiscard]] PolygonSoup read_gltf(const std::string& path, std::string_view bytes,
-                                    Stage& stage);
+[[nodiscard]] MeshFile read_gltf(const std::string& path, std::string_view bytes,
+                                 Stage& stage);
 [[nodiscard]] PolygonSoup read_stl(const std::string& path, std::string_view bytes,
                                    Stage& stage);
 

@@ -10,6 +10,7 @@
 //   2. The fan of a side with many faces, none of which has a further corner on the
 //      side's line.  They meet beyond the side iff they lie in the same half-plane, and
 //      half-planes are sorted around the side.
+// Thin faces that run askew have boxes along directions of their own (tight_boxes.h).
 // Elsewhere, two faces that both belong to such a place are passed over.
 
 #include <Eigen/Geometry>
@@ -19,6 +20,7 @@
 
 #include "linespace/scene/face_pair.h"
 #include "linespace/scene/scene.h"
+#include "linespace/scene/tight_boxes.h"
 #include "linespace/space/bvh.h"
 #include "linespace/work/stop_scope.h"
 
@@ -284,8 +286,27 @@ class TouchingSearch {
       }
       search_star(corner, star);
     }
-    search(items,
-           [](const FacePlane& plane, const Box& box) { return plane.misses(box); });
+    search_turned(items, TightBoxes(scene_, faces));
+  }
+
+  // The items, each among boxes along the directions in which its own is small.
+  void search_turned(const std::vector<Item>& items, const TightBoxes& tight) {
+    std::vector<char> held(items.size(), 0);
+    std::vector<Item> turned = items;
+    for (int set = 0; set < tight.count(); ++set) {
+      if (set > 0) {
+        for (Item& item : turned) item.box = tight.box(set, item.face);
+      }
+      const auto misses = [&](const FacePlane& plane, const Box& box) {
+        return set == 0 && plane.misses(box);
+      };
+      const auto may_meet = [&](const FacePlane& plane, std::size_t i, std::size_t j) {
+        return overlap(items[i].box, items[j].box) && !plane.misses(items[j].box);
+      };
+      search(
+          set == 0 ? items : turned, held,
+          [&](std::size_t i) { return tight.set_of(i) == set; }, misses, may_meet);
+    }
   }
 
   // Corners with many of these faces, and their positions in `faces`.
@@ -302,24 +323,33 @@ class TouchingSearch {
     return stars;
   }
 
-  // Of each item without a partner, another one that shares no place with it.
-  template <class Misses>
-  void search(const std::vector<Item>& items, const Misses& misses) {
+  // Of each of these items without a partner, another item that shares no place with it.
+  // misses(plane, box) passes over boxes, may_meet(plane, i, j) over pairs; held: which
+  // items were held against all.
+  template <class Chosen, class Misses, class MayMeet>
+  void search(const std::vector<Item>& items, std::vector<char>& held,
+              const Chosen& chosen, const Misses& misses, const MayMeet& may_meet) {
     if (items.size() < 2) return;
     const PlacedBoxes boxes(items);
     for (std::size_t i = 0; i < items.size(); ++i) {
       hear_stop();
+      if (!chosen(i)) continue;
       const int f = items[i].face;
       if (partner_[source(f)] >= 0) continue;
+      held[i] = 1;
       const FacePlane plane(scene_, f);
       boxes.any(
           static_cast<int>(i), [&](const Box& box) { return !misses(plane, box); },
           [&](int j) {
             hear_stop();
             const int g = items[j].face;
-            // An earlier one that has no partner yet was held against all.
-            const bool done = j < static_cast<int>(i) && partner_[source(g)] < 0;
-            if (done || source(g) == source(f) || !pair_.meet(f, g)) return false;
+            // One that was held against all and has no partner yet does not meet this
+            // one.
+            const bool done = held[j] != 0 && partner_[source(g)] < 0;
+            if (done || source(g) == source(f) ||
+                !may_meet(plane, i, static_cast<std::size_t>(j)) || !pair_.meet(f, g)) {
+              return false;
+            }
             note(f, g);
             return true;
           });
@@ -356,9 +386,13 @@ class TouchingSearch {
       }
       search_fan(corner, other, fan);
     }
-    search(items, [](const FacePlane& plane, const Box& box) {
-      return plane.misses_directions(box);
-    });
+    std::vector<char> held(items.size(), 0);
+    search(
+        items, held, [](std::size_t) { return true; },
+        [](const FacePlane& plane, const Box& box) {
+          return plane.misses_directions(box);
+        },
+        [](const FacePlane&, std::size_t, std::size_t) { return true; });
   }
 
   [[nodiscard]] Point direction(int from, int to) const {

@@ -11,10 +11,7 @@
 namespace sightline::fuzz {
 namespace {
 
-using Reader = PolygonSoup (*)(const std::string& path, std::string_view bytes,
-                               internal::Stage& stage);
-
-template <Reader read>
+template <auto read>
 void run_reader(const std::string& bytes) {
   try {
     (void)read("fuzz", bytes, test::Unhurried());

@@ -49,6 +49,7 @@ CIRCLES = {
     "linespace/mesh_io": (2, "the door names the readers, a reader the door's words"),
     "linespace/portals": (3, "a sequence and the parts of its search"),
     "linespace/silhouettes/silhouettes": (6, "what is buried is found by the free parts of edges"),
+    "viewers/page": (3, "sections are written in the words of the page"),
     "skeleton/nodes/node_contacts": (2, "lists are kept in the form in which they are asked"),
     "skeleton/skeleton_lines": (8, "a part by far ends is cut by the lines of what is built"),
 }

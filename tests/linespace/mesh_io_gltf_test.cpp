@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <numeric>
 #include <random>
 #include <sstream>
 
@@ -652,11 +653,34 @@ TEST_F(Gltf, IndicesOutOfRangeAreRefusedWhereverTheyStand) {
     const std::size_t begin = at + place.size();
     text.replace(begin, text.find_first_not_of("0123456789", begin) - begin, value);
     const std::string message = complaint_about(text);
-    // Materials are not read: one that is not there moves nothing.
-    EXPECT_EQ(message.starts_with("x.gltf: "), place != R"("material":)")
-        << place << value << ": " << message;
+    EXPECT_TRUE(message.starts_with("x.gltf: ")) << place << value << ": " << message;
     EXPECT_EQ(message.find_first_of("\r\n"), std::string::npos) << message;
   }
+}
+
+// Materials with a colour of light that is not black; a mesh of two nodes is there twice.
+TEST_F(Gltf, PolygonsWhoseMaterialEmitsAreTold) {
+  File file = cube();
+  file.nodes = R"({"children":[1,2],"name":"r"},{"mesh":0},{"mesh":0})";
+  const auto emitting = [&](const std::string& materials, const std::string& number) {
+    std::string text = file.text();
+    text.insert(text.find(R"("indices":1)"), R"("material":)" + number + ",");
+    text.insert(text.find(R"(,"meshes")"), R"(,"materials":)" + materials);
+    return internal::read_gltf("x.gltf", text, test::Unhurried()).emitting;
+  };
+  const std::string materials =
+      R"([{"name":"wall"},{"emissiveFactor":[0,0.25,0]},{"emissiveFactor":[0,0,0]}])";
+  std::vector<int> all(24);
+  std::iota(all.begin(), all.end(), 0);
+  EXPECT_EQ(emitting(materials, "1"), all);
+  EXPECT_EQ(emitting(materials, "0"), std::vector<int>{});
+  EXPECT_EQ(emitting(materials, "2"), std::vector<int>{});
+  for (const char* wrong : {"[{\"emissiveFactor\":[1,1]}]", "[{\"emissiveFactor\":1}]",
+                            "[{\"emissiveFactor\":[0,\"1\",0]}]", "[1]", "{}", "[]"}) {
+    EXPECT_THROW(emitting(wrong, "0"), InvalidInput) << wrong;
+  }
+  EXPECT_EQ(internal::read_gltf("x.gltf", file.text(), test::Unhurried()).emitting,
+            std::vector<int>{});
 }
 
 // Indices of vertices, of 8, 16 and 32 bits, dense and sparse: the first bad one is

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <ctime>
 #include <random>
@@ -221,6 +222,72 @@ TEST(SelfTouching, CostsLittleWhereManyFacesMeetLawfully) {
     disc.polygons.push_back({0, i + 1, (i + 1) % kFaces + 1});
   }
   EXPECT_LT(seconds_of(disc, 0), 2);
+}
+
+/// Long thin triangles askew, in bundles that each run one way; few of them meet.
+PolygonSoup bundles(unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  const auto any = [&] { return Point(unit(random), unit(random), unit(random)); };
+  PolygonSoup s;
+  const int ways = 1 + static_cast<int>(seed % 3);
+  for (int way = 0; way < ways; ++way) {
+    const Point along = any(), place = 0.3 * any();
+    for (int i = 0; i < 100; ++i) {
+      const int n = static_cast<int>(s.vertices.size());
+      const Point at = place + 0.1 * any();
+      s.vertices.push_back(at);
+      s.vertices.push_back(at + along + 1e-4 * any());
+      s.vertices.push_back(at + 0.01 * any());
+      s.polygons.push_back({n, n + 1, n + 2});
+    }
+  }
+  return s;
+}
+
+TEST(SelfTouching, FindsThinFacesAskewThatMeet) {
+  std::size_t touching = 0, alone = 0;
+  for (unsigned seed = 1; seed <= 60; ++seed) {
+    SCOPED_TRACE(seed);
+    PolygonSoup soup = bundles(seed);
+    soup.groups = {{"all", {}}};
+    for (std::size_t f = 0; f < soup.polygons.size(); ++f)
+      soup.groups[0].faces.push_back(static_cast<int>(f));
+    const Scene scene(soup);
+    std::vector<int> named;
+    for (const Defect& defect : find_self_touching(scene))
+      named.push_back(defect.faces[0]);
+    ASSERT_EQ(named, touching_by_pairs(scene));
+    touching += named.size();
+    alone += scene.soup().polygons.size() - named.size();
+  }
+  EXPECT_GT(touching, 500u);
+  EXPECT_GT(alone, 500u);
+}
+
+// Two caps of thin triangles, close together and turned in space: with boxes along the
+// axes they took 13 s.
+TEST(SelfTouching, CostsLittleWhereThinFacesRunAskew) {
+  PolygonSoup flat;
+  const Eigen::Matrix3d turn(Eigen::AngleAxisd(0.7, Point(1, 2, 3).normalized()));
+  const auto add = [&](double x, double y, double z) {
+    flat.vertices.push_back(turn * Point(x, y, z));
+  };
+  constexpr int kSides = kFaces;
+  const double side = kTurn;
+  add(0, 0, 0);
+  add(0, 0, 0.01);
+  for (const double z : {0.0, 0.01}) {
+    for (int i = 0; i < kSides; ++i) add(std::cos(i * side), std::sin(i * side), z);
+  }
+  for (int i = 0; i < kSides; ++i) {
+    const int a = i + 2, b = (i + 1) % kSides + 2, c = a + kSides, d = b + kSides;
+    for (const std::vector<int>& face :
+         std::vector<std::vector<int>>{{0, b, a}, {1, c, d}, {a, b, d}, {a, d, c}}) {
+      flat.polygons.push_back(face);
+    }
+  }
+  EXPECT_LT(seconds_of(flat, 0), 4);
 }
 
 }  // namespace

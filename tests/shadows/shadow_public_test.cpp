@@ -244,5 +244,39 @@ TEST(ShadowPublic, SoftShadows) {
   EXPECT_GT(penumbra, 20);
 }
 
+// The same scene with values between exact ones: which pixels are interpolated, and how
+// far off.
+TEST(ShadowPublic, SmoothPicturesAreNearExactOnes) {
+  PolygonSoup soup;
+  add_lamp(soup, 1, 4);
+  add_sheet(soup, "plate",
+            {{-1.5, -1.5, 2}, {1.5, -1.5, 2}, {1.5, 1.5, 2}, {-1.5, 1.5, 2}});
+  add_sheet(soup, "ground", {{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}});
+  const Lit lit(soup);
+  const OcclusionIndex occlusion(lit.scene);
+  const PictureCamera camera{{-9, -7, 6}, {0, 0, 1}, {0, 0, 1}, 1, 102, 75};
+  const auto exact = lit_picture(occlusion, lit.index, lit.source, camera, 0, 1);
+  const auto smooth = smooth_lit_picture(occlusion, lit.index, lit.source, camera, 0.02);
+  const auto all = smooth_lit_picture(occlusion, lit.index, lit.source, camera, 0);
+  ASSERT_EQ(smooth.size(), exact.size());
+  ASSERT_EQ(all.size(), exact.size());
+  double brightest = 0;
+  for (const LitPixel& p : exact) {
+    if (p.kind == LitPixel::Kind::Surface) brightest = std::max(brightest, p.value);
+  }
+  int between = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    ASSERT_EQ(smooth[i].kind, exact[i].kind) << i;
+    ASSERT_EQ(smooth[i].face, exact[i].face) << i;
+    EXPECT_EQ(all[i].value, exact[i].value) << i;
+    EXPECT_NEAR(smooth[i].value, exact[i].value, 0.02 * brightest) << i;
+    if (i % 102 % 2 == 0 && i % 102 % 4 == i / 102 % 4) {
+      EXPECT_EQ(smooth[i].value, exact[i].value) << i;
+    }
+    between += smooth[i].value != exact[i].value ? 1 : 0;
+  }
+  EXPECT_GT(between, static_cast<int>(exact.size()) / 4);
+}
+
 }  // namespace
 }  // namespace sightline

@@ -111,9 +111,10 @@ std::vector<NumberOption> number_options() {
       {"visible", "--seam", kFromZero},
       {"stab", "--rungs", {.whole = true, .least = 2, .most = 1e6}},
       {"look", "--pixels", {.whole = true, .least = 16, .most = 16384}},
-      {"look", "--fov", {.least = 0, .least_too = false, .most = 179}}};
-  for (const char* command :
-       {"info", "look", "skeleton", "analyse", "transversals", "stab", "visible"}) {
+      {"look", "--fov", {.least = 0, .least_too = false, .most = 179}},
+      {"formfactors", "--accuracy", {.least = 0, .least_too = false, .most = 0.1}}};
+  for (const char* command : {"info", "look", "skeleton", "shadows", "formfactors",
+                              "analyse", "transversals", "stab", "visible"}) {
     all.push_back({command, "--threads", kThreads});
     all.push_back({command, "--budget", kAboveZero});
   }
@@ -138,6 +139,19 @@ std::vector<NumberOption> number_options() {
     add("look", name, points);
   }
   for (const char* name : {"--from", "--direction"}) add("analyse", name, points);
+  add("formfactors", "--up", points);
+  const std::string eye = "--png out.png --eye 7,8,9 ", towards = "--towards 5,6,7 ";
+  const std::string small = "--size 8x6 ";
+  add("shadows", "--eye", points, "--png out.png " + towards + small);
+  add("shadows", "--towards", points, eye + small);
+  add("shadows", "--up", points, eye + towards + small);
+  add("shadows", "--fov", {"#"}, eye + towards + small,
+      {.least = 0, .least_too = false, .most = 179});
+  add("shadows", "--size", {"#x6", "8x#"}, eye + towards,
+      {.whole = true, .least = 1, .most = 16384});
+  add("shadows", "--rays", {"#"}, eye + towards + "--size 2x1 ",
+      {.whole = true, .least = 1, .most = 1e6});
+  add("shadows", "--seed", {"#"}, eye + towards + small, kSeed);
   add("look", "--window", {"#,-2,2,2", "-2,#,2,2", "-2,-2,#,2", "-2,-2,2,#"});
   add("view", "--box", boxes);
   add("view", "--eye", points);
@@ -159,6 +173,8 @@ class NumberOptions : public sightline::test::Shell {
         {"info", "info s.obj --json -"},
         {"look", "look s.obj --from 7,8,9 --svg out.svg --json -"},
         {"skeleton", "skeleton s.obj --kinds EV --json -"},
+        {"shadows", "shadows s.obj --light b --receivers a --json -"},
+        {"formfactors", "formfactors s.obj --json -"},
         {"analyse", "analyse s.obj --json - -o out"},
         {"view", "view s.obj --png out.png"},
         {"transversals", "transversals t.json --json -"},
@@ -209,11 +225,11 @@ TEST_F(NumberOptions, AreAllOfThem) {
     known.insert(option.command + " " + option.name);
   }
   std::set<std::string> told;
-  for (const char* command : {"info", "look", "skeleton", "analyse", "view",
-                              "transversals", "stab", "visible"}) {
+  for (const char* command : {"info", "look", "skeleton", "shadows", "formfactors",
+                              "analyse", "view", "transversals", "stab", "visible"}) {
     const std::string help = shell("$S " + std::string(command) + " --help").out;
     const std::regex option(
-        "\n +(?:-., ?)?(--[a-z-]+) (?:N|S|R|L|M|W|SIZE|INT\\S*|W,H|"
+        "\n +(?:-., ?)?(--[a-z-]+) (?:N|S|R|L|M|W|E|SIZE|WxH|INT\\S*|W,H|"
         "BOX|POINT|DEGREES|x,y,z|x0,y0,x1,y1|X,Y,Z)[ \n]");
     for (auto at = std::sregex_iterator(help.begin(), help.end(), option);
          at != std::sregex_iterator(); ++at) {
@@ -254,6 +270,7 @@ TEST_F(NumberOptions, LeaveTheFileBehindThemAlone) {
     std::string value = option.value;
     value.replace(value.find('#'), 1,
                   option.name == "--size" || option.name == "--pixels"  ? "60"
+                  : option.name == "--accuracy"                         ? "0.1"
                   : option.name == "--box" || option.name == "--window" ? "0"
                                                                         : "2");
     options.push_back({option.command, option.with + " " + option.name + " " + value});
@@ -263,9 +280,13 @@ TEST_F(NumberOptions, LeaveTheFileBehindThemAlone) {
   options.push_back({"skeleton", "--between a b"});
   options.push_back({"skeleton", "--between-ends a outside"});
   options.push_back({"analyse", "--only skeleton"});
+  options.push_back({"shadows", "--receivers a"});
+  options.push_back({"shadows", "--both-sides b"});
+  options.push_back({"formfactors", "--groups a"});
   const std::map<std::string, std::string> rest{
       {"info", "s.obj --json -"},      {"skeleton", "s.obj --json -"},
       {"look", "s.obj --from 7,8,9"},  {"analyse", "s.obj -o out"},
+      {"shadows", "s.obj --light b"},  {"formfactors", "s.obj"},
       {"view", "s.obj --png out.png"}, {"transversals", "t.json --list"},
       {"stab", "p.json --list"},       {"visible", "s.obj a b --json -"}};
   for (const auto& [command, option] : options) {

@@ -4,8 +4,6 @@
 
 #include <utility>
 
-#include "linespace/mesh_io.h"
-
 namespace sightline::viewers {
 
 void add_scene_argument(CLI::App& app, CommonOptions& options, bool required) {
@@ -78,6 +76,14 @@ void add_size_budget_option(CLI::App& app, std::size_t& bytes) {
       ->check(number_above_zero());
 }
 
+void add_names_option(CLI::App& app, const std::string& option,
+                      std::vector<std::string>& names, const std::string& help) {
+  app.add_option(option, names, help)
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("GROUP[,GROUP...]");
+}
+
 void add_region_option(CLI::App& app, std::vector<double>& region) {
   app.add_option(
          "--region", region,
@@ -104,12 +110,15 @@ std::optional<std::array<Point, 2>> region_box(const std::vector<double>& region
   return std::array<Point, 2>{low, high};
 }
 
-Scene read_scene(Session& session, const std::string& file, const std::string& format) {
+MeshFile read_file(Session& session, const std::string& file, const std::string& format) {
   if (file == "-" && format.empty()) {
     throw UsageError("'-' is standard input: name its format, as in --format obj");
   }
-  PolygonSoup soup = read_mesh(file, session.with_grace(), format);
-  return Scene(std::move(soup), {}, session.with_grace());
+  return read_mesh(file, session.with_grace(), format);
+}
+
+Scene read_scene(Session& session, const std::string& file, const std::string& format) {
+  return Scene(read_file(session, file, format), {}, session.with_grace());
 }
 
 std::string counted(std::size_t n, const char* one, const char* many) {

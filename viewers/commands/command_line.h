@@ -14,6 +14,7 @@
 #include <thread>
 #include <vector>
 
+#include "linespace/mesh_io.h"
 #include "linespace/request.h"
 #include "viewers/answer.h"
 #include "viewers/commands/option_checks.h"
@@ -54,6 +55,9 @@ void add_common_options(CLI::App& app, CommonOptions& options);
 void add_budget_option(CLI::App& app, double& seconds);
 /// --budget-mb, in bytes; stays as it is when not given.
 void add_size_budget_option(CLI::App& app, std::size_t& bytes);
+/// An option that takes names of groups, separated by commas.
+void add_names_option(CLI::App& app, const std::string& option,
+                      std::vector<std::string>& names, const std::string& help);
 void add_region_option(CLI::App& app, std::vector<double>& region);
 
 /// The six numbers of --region as a box; nullopt when none were given.  Throws UsageError
@@ -70,6 +74,11 @@ Command command_of(std::shared_ptr<Options> options,
     return run(session, *options);
   };
 }
+
+/// Reads a mesh file, as a stage of the session.  Throws UsageError for "-" without a
+/// format.
+[[nodiscard]] MeshFile read_file(Session& session, const std::string& file,
+                                 const std::string& format = {});
 
 /// Reads a mesh file and makes a scene of it, as stages of the session.  Throws
 /// UsageError for "-" without a format.

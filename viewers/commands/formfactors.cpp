@@ -120,11 +120,7 @@ ExitStatus answer_matrix(Session& session, const FactorOptions& options,
   Json answer =
       answer_head("formfactors", scene, factors.complete && session.unwritten().empty(),
                   {session.seconds(), meter.predicates() + factors.predicates});
-  answer["accuracy"] = options.accuracy;
-  answer.update(factors_json(factors, !options.up.empty()));
-  answer["pairs"] = {{"facing", factors.pairs},
-                     {"open", factors.open},
-                     {"partly_hidden", factors.partial}};
+  answer.update(matrix_answer(factors, options.accuracy, !options.up.empty()));
   if (options.enforce && factors.complete) {
     const EnforcedFactors e = enforced(factors);
     answer["enforced"] = factors_json(e.factors, !options.up.empty());
@@ -228,28 +224,22 @@ ExitStatus run(Session& session, const FactorOptions& options) {
                             : answer_points(session, options, scene, surfaces, files);
 }
 
-void add_names(CLI::App& command, const std::string& name,
-               std::vector<std::string>& names, const char* help) {
-  command.add_option(name, names, help)
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("GROUP[,GROUP...]");
-}
-
 void add_surface_options(CLI::App& command, FactorOptions& options) {
-  add_names(command, "--groups", options.wish.groups,
-            "the surfaces, in this order, or polygons #i-j (default: all groups)");
+  add_names_option(command, "--groups", options.wish.groups,
+                   "the surfaces, in this order, or polygons #i-j (default: all groups)");
   command
       .add_option("--each", options.each,
                   "what a surface is: a group as a whole, or every polygon of these "
                   "groups, named GROUP/number in the file (default group)")
       ->type_name("group|face")
       ->check(one_of({"group", "face"}));
-  add_names(command, "--both-sides", options.wish.both_sides,
-            "groups that send out and receive by both sides: their backs are surfaces of "
-            "their own, GROUP/back");
-  add_names(command, "--without", options.without,
-            "groups that are taken out of the scene first, such as panes of glass");
+  add_names_option(
+      command, "--both-sides", options.wish.both_sides,
+      "groups that send out and receive by both sides: their backs are surfaces of "
+      "their own, GROUP/back");
+  add_names_option(
+      command, "--without", options.without,
+      "groups that are taken out of the scene first, such as panes of glass");
   command
       .add_option("--accuracy", options.accuracy,
                   "largest error of an entry, 1e-13 to 0.1 (default 1e-10)")

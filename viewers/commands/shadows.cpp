@@ -14,12 +14,13 @@
 #include "viewers/commands/ask_points.h"
 #include "viewers/commands/command_line.h"
 #include "viewers/commands/outputs.h"
-#include "viewers/files/shadow_vtk.h"
+#include "viewers/commands/shadow_receivers.h"
 #include "viewers/json_text.h"
 #include "viewers/pictures/lit_image.h"
 #include "viewers/queries/mesh_answer.h"
 #include "viewers/queries/shadow_answer.h"
 #include "viewers/queries/shadow_questions.h"
+#include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
 namespace {
@@ -117,54 +118,6 @@ void write_picture(Session& session, const ShadowOptions& options, const Scene& 
 
 // ---- receivers ------------------------------------------------------------------------
 
-/// Those named, or all objects that are no part of the source; those of both sides twice.
-std::vector<Receiver> receivers_of(const ShadowOptions& options, const Scene& scene,
-                                   const LightSource& light) {
-  std::vector<std::string> names = options.receivers;
-  if (names.empty()) {
-    for (const Object& object : scene.objects()) {
-      const bool shines = std::ranges::all_of(object.faces, [&](int f) {
-        return std::ranges::binary_search(light.faces, f);
-      });
-      if (!shines) names.push_back(object.name);
-    }
-  }
-  std::vector<std::uint8_t> two_sided(scene.faces().size(), 0);
-  for (const std::string& name : options.both_sides) {
-    for (const int f : scene.faces_named(name)) two_sided[f] = 1;
-  }
-  std::vector<Receiver> receivers;
-  for (const std::string& name : names) {
-    Receiver front{name, scene.faces_named(name), true};
-    if (front.faces.empty()) {
-      throw UsageError(fmt::format("--receivers {}: no face of it with an area is left",
-                                   escaped_bytes(name)));
-    }
-    Receiver back{name + "/back", {}, false};
-    for (const int f : front.faces) {
-      if (two_sided[f] != 0) back.faces.push_back(f);
-    }
-    receivers.push_back(std::move(front));
-    if (!back.faces.empty()) receivers.push_back(std::move(back));
-  }
-  return receivers;
-}
-
-/// With all receivers missing where the budget ended before the first was done.
-Shadows ask_receivers(Session& session, const ShadowOptions& options, const Scene& scene,
-                      const LightSource& light) {
-  const std::vector<Receiver> receivers = receivers_of(options, scene, light);
-  Request request = request_of(session, options);
-  session.limit(request);
-  try {
-    return find_shadows(scene, light, receivers, request);
-  } catch (const Stopped&) {
-    Shadows none;
-    for (const Receiver& receiver : receivers) none.missing.push_back(receiver.name);
-    return none;
-  }
-}
-
 void print_receivers(const Shadows& shadows) {
   for (const ReceiverShadows& r : shadows.receivers) {
     std::size_t edges = 0, faces = 0;
@@ -216,14 +169,20 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
   const bool asks_receivers = !options.receivers.empty() || !options.vtk.empty() ||
                               (options.at.empty() && options.png.empty());
   Shadows shadows;
-  if (asks_receivers) shadows = ask_receivers(session, options, scene, light);
+  if (asks_receivers) {
+    Request request = request_of(session, options);
+    session.limit(request);
+    shadows = shadows_in_time(
+        scene, light, receivers_of(scene, light, options.receivers, options.both_sides),
+        request);
+  }
   const bool complete = all.points.size() == questions.size() && shadows.complete();
   if (png != nullptr) write_picture(session, options, scene, index, light, *camera, *png);
 
   // 3. The files; the answer comes last.
   if (!options.vtk.empty()) {
     session.write("VTK files", [&](const Request& request) {
-      write_vtk_shadows(options.vtk, scene, shadows, request);
+      write_vtk(options.vtk, scene, {.shadows = &shadows}, request);
     });
   }
   if (csv != nullptr) {
@@ -250,14 +209,6 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
     std::cout << fmt::format("  {:.3f} s\n", session.seconds());
   }
   return session.end(complete);
-}
-
-void add_names(CLI::App& command, const std::string& name,
-               std::vector<std::string>& names, const char* help) {
-  command.add_option(name, names, help)
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("GROUP[,GROUP...]");
 }
 
 void add_vector(CLI::App& command, const std::string& name, std::vector<double>& numbers,
@@ -308,14 +259,16 @@ Command add_shadows_command(CLI::App& app) {
       "shadows",
       "area lights: what points see of them, exactly, and how much light arrives");
   add_scene_argument(*command, *options);
-  add_names(*command, "--light", options->light,
-            "the source: all faces of these groups, or polygons #i-j, which emit from "
-            "their fronts");
+  add_names_option(
+      *command, "--light", options->light,
+      "the source: all faces of these groups, or polygons #i-j, which emit from "
+      "their fronts");
   command->get_option("--light")->required();
-  add_names(*command, "--both-sides", options->both_sides,
-            "groups whose faces emit from both sides");
-  add_names(*command, "--without", options->without,
-            "groups that are taken out of the scene first, such as panes of glass");
+  add_names_option(*command, "--both-sides", options->both_sides,
+                   "groups whose faces emit from both sides");
+  add_names_option(
+      *command, "--without", options->without,
+      "groups that are taken out of the scene first, such as panes of glass");
   command
       ->add_option(
           "--at", options->at,
@@ -332,10 +285,11 @@ Command add_shadows_command(CLI::App& app) {
                     "add \"gradient\", of the form factor with the point; where it "
                     "differs on the two sides of an edge of the mesh it is null, and "
                     "\"one_sided\" has both");
-  add_names(*command, "--receivers", options->receivers,
-            "faces on which lit region, penumbra and umbra are found, with the mesh of "
-            "curves along which the view of the source changes (default, without --at "
-            "and --png: all groups but the source's)");
+  add_names_option(
+      *command, "--receivers", options->receivers,
+      "faces on which lit region, penumbra and umbra are found, with the mesh of "
+      "curves along which the view of the source changes (default, without --at "
+      "and --png: all groups but the source's)");
   command->add_flag("--list", options->list,
                     "add \"facets\" to each receiver: the mesh's vertices, edges and "
                     "faces; and \"structures\"");

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
+#include <cctype>
 #include <map>
 
+#include "viewers/files/page_light.h"
+#include "viewers/files/page_words.h"
 #include "viewers/json_text.h"
 #include "viewers/palette.h"
 #include "viewers/queries/view_answer.h"
@@ -40,6 +42,12 @@ th,td { text-align:left; padding:6px 14px; border-top:1px solid var(--line);
   vertical-align:top; }
 tr:first-child th { border-top:0; } th { font-weight:600; background:#f9fafc; }
 td.n, th.n { text-align:right; font-variant-numeric:tabular-nums; white-space:nowrap; }
+.matrix { overflow-x:auto; } .matrix table { width:auto; }
+.matrix td, .matrix th { padding:2px 5px; font-size:12px; }
+.matrix td.f { text-align:right; font-variant-numeric:tabular-nums; border-left:1px solid
+  var(--line); }
+td.share { width:34%; white-space:nowrap; }
+.share i { display:inline-block; height:12px; margin-top:5px; }
 td.bar { width:42%; } .bar i { display:block; height:12px; border-radius:3px;
   min-width:2px; margin-top:5px; }
 .chip { display:inline-block; width:11px; height:11px; border-radius:3px; margin:0 7px 0 0; }
@@ -51,18 +59,6 @@ code { font-size:13px; background:#e9edf3; padding:1px 5px; border-radius:4px; }
 .two { display:grid; grid-template-columns:repeat(auto-fit,minmax(420px,1fr)); gap:18px; }
 )css";
 
-/// 12345678 -> "12 345 678", with thin spaces.
-std::string grouped(std::int64_t n) {
-  const std::string digits = std::to_string(n);
-  std::string out;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    const bool between_digits = i > 0 && digits[i - 1] != '-';
-    if (between_digits && (digits.size() - i) % 3 == 0) out += "&#8239;";
-    out += digits[i];
-  }
-  return out;
-}
-
 std::string seconds_text(double s) {
   if (s < 0.0995) return fmt::format("{:.1f} ms", 1e3 * s);
   return s < 9.95 ? fmt::format("{:.2f} s", s) : fmt::format("{:.1f} s", s);
@@ -71,15 +67,6 @@ std::string seconds_text(double s) {
 std::string memory_text(double bytes) {
   return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6)
                      : fmt::format("{:.2f} GB", bytes / 1e9);
-}
-
-std::string card(const std::string& number, const std::string& what) {
-  return fmt::format("<div class=card><b>{}</b>{}</div>\n", number, what);
-}
-
-std::string bar(double fraction, const std::string& colour) {
-  return fmt::format("<td class=bar><i style=\"width:{:.1f}%;background:{}\"></i></td>",
-                     100 * fraction, colour);
 }
 
 const char* meaning(const std::string& kind) {
@@ -262,18 +249,23 @@ std::string skeleton_cards(const Json& skeleton) {
 
 /// What the page tells, in a line.
 std::string subject(const Json& report) {
-  const bool views = report.contains("look");
-  if (!report.contains("skeleton")) return views ? "Exact views" : "The scene";
-  return views ? "The exact visibility skeleton, solid mode, and exact views"
-               : "The exact visibility skeleton, solid mode";
-}
-
-std::string figure(const PagePicture& picture) {
-  return fmt::format(
-      "<figure><a href=\"{}\"><img alt=\"{}\" src=\"data:image/png;base64,{}\"></a>"
-      "<figcaption><b>{}</b><br>{}</figcaption></figure>\n",
-      html_escaped(picture.file), html_escaped(picture.title), base64(picture.png),
-      html_escaped(picture.title), picture.caption);
+  std::vector<std::string> parts;
+  if (report.contains("skeleton")) {
+    parts.emplace_back("the exact visibility skeleton, solid mode");
+  }
+  if (report.contains("look")) parts.emplace_back("exact views");
+  if (report.contains("shadows")) parts.emplace_back("shadows of an area light");
+  if (report.contains("formfactors")) parts.emplace_back("form factors");
+  if (parts.empty()) parts.emplace_back("the scene");
+  std::string text = parts[0];
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    text += (i + 1 < parts.size() ? ", "
+             : parts.size() > 2   ? ", and "
+                                  : " and ") +
+            parts[i];
+  }
+  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+  return text;
 }
 
 std::string pictures_section(const std::vector<PagePicture>& pictures) {
@@ -407,7 +399,8 @@ std::string base64(const std::string& bytes) {
 }
 
 std::string report_page(const Json& report, const std::vector<PagePicture>& pictures,
-                        const std::vector<PagePicture>& views) {
+                        const std::vector<PagePicture>& views,
+                        const std::vector<PagePicture>& light) {
   const std::string scene = file_name(report);
   std::string html = fmt::format(
       "<!DOCTYPE html>\n<html lang=en><head><meta charset=utf-8>\n"
@@ -429,6 +422,8 @@ std::string report_page(const Json& report, const std::vector<PagePicture>& pict
   html += pictures_section(pictures);
   if (report.contains("skeleton")) html += counts_section(report["skeleton"]);
   html += views_section(report, views);
+  html += shadows_section(report, light);
+  html += factors_section(report);
   html += "<div class=two><div>" + stages_section(report) + "</div><div>" +
           predicates_section(report) + "</div></div>\n";
   html += scene_section(report);

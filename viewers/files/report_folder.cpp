@@ -66,7 +66,9 @@ void ReportFolder::add(const std::vector<std::string>& names) {
 
 bool ReportFolder::takes(const std::string& name) const {
   return name == kList || name == "index.html" || name == "report.json" ||
-         name == "skeleton.json" || name == "look.json" || name.ends_with(".png") ||
+         name == "skeleton.json" || name == "look.json" || name == "shadows.json" ||
+         name == "shadows.csv" || name == "formfactors.json" ||
+         name == "formfactors.csv" || name.ends_with(".png") ||
          (name.starts_with("look") && name.ends_with(".svg")) ||
          std::ranges::find(earlier_, name) != earlier_.end();
 }

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 
-#include "viewers/files/vtk_cells.h"
-#include "viewers/output_file.h"
 #include "viewers/pictures/trapezoids.h"
 #include "viewers/queries/mesh_answer.h"
 #include "viewers/queries/shadow_answer.h"
-#include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
 namespace {
@@ -132,33 +129,21 @@ Cells cells_of(const Shadows& shadows, Stage& stage, Fill&& fill) {
 
 }  // namespace
 
-std::vector<std::string> write_vtk_shadows(const std::filesystem::path& folder,
-                                           const Scene& scene, const Shadows& shadows,
-                                           const Request& request) {
-  std::vector<std::string> names = write_vtk(folder, scene, {}, request);
-  Stage stage(request, "VTK files");
-  begin_vtk_folder(folder);
-  std::erase(names, kVtkIndex);
-  std::vector<std::string> blocks{"scene", "edges"};
-  const auto write = [&](const std::string& block, const Cells& cells) {
-    if (cells.empty()) return;
-    write_poly_data(folder / (block + ".vtp"), cells.poly_data(), stage);
-    blocks.push_back(block);
-    names.push_back(block + ".vtp");
-  };
-  write(
+void add_shadow_blocks(std::map<std::string, Cells>& blocks, const Shadows& shadows,
+                       Stage& stage) {
+  blocks.emplace(
       "shadow_faces",
       cells_of(shadows, stage, [](Cells& cells, const auto& receiver, const auto& mesh) {
         for (int f = 0; f < static_cast<int>(mesh.faces.size()); ++f)
           add_face(cells, receiver, mesh, f);
       }));
-  write(
+  blocks.emplace(
       "shadow_edges",
       cells_of(shadows, stage, [](Cells& cells, const auto& receiver, const auto& mesh) {
         for (int e = 0; e < static_cast<int>(mesh.edges.size()); ++e)
           add_edge(cells, receiver, mesh, e);
       }));
-  write(
+  blocks.emplace(
       "shadow_vertices",
       cells_of(shadows, stage, [](Cells& cells, const auto& receiver, const auto& mesh) {
         for (int v = 0; v < static_cast<int>(mesh.vertices.size()); ++v) {
@@ -168,9 +153,6 @@ std::vector<std::string> write_vtk_shadows(const std::filesystem::path& folder,
           cells.value("vertex", {v});
         }
       }));
-  write_whole(folder / kVtkIndex, multi_block_text(blocks));
-  names.emplace_back(kVtkIndex);
-  return names;
 }
 
 }  // namespace sightline::viewers

@@ -1,29 +1,18 @@
-// Discontinuity meshes as VTK files.
+// Discontinuity meshes as blocks of VTK files.
 
 #pragma once
 
-#include <filesystem>
+#include <map>
 #include <string>
-#include <vector>
 
 #include "shadows/shadow_mesh.h"
+#include "viewers/files/vtk_cells.h"
 
 namespace sightline::viewers {
 
-/// Writes into `folder` the scene, as write_vtk() does, and
-///   shadow_faces.vtp     the faces of all meshes, curves as chords; cell arrays receiver
-///                        (name), facet, face, class, structure, area (scene units
-///                        squared).  A face that is not convex is cut into triangles and
-///                        trapezoids; `face` tells which belong together
-///   shadow_edges.vtp     their edges, a line for each chord; receiver, facet, edge,
-///   kind,
-///                        order (-1 for none), left, right
-///   shadow_vertices.vtp  their vertices; receiver, facet, vertex
-/// Numbers are those of the answer, `colour` is RGB.  The index sightline.vtm holds all.
-/// Returns the names of the files.  Of the request, stop, budget and progress count:
-/// throws Stopped.  Throws OutputError and WriteError.
-std::vector<std::string> write_vtk_shadows(const std::filesystem::path& folder,
-                                           const Scene& scene, const Shadows& shadows,
-                                           const Request& request = {});
+/// Adds the blocks shadow_faces, shadow_edges and shadow_vertices, as write_vtk() tells
+/// of them.  Throws Stopped.
+void add_shadow_blocks(std::map<std::string, Cells>& blocks, const Shadows& shadows,
+                       internal::Stage& stage);
 
 }  // namespace sightline::viewers

@@ -27,6 +27,7 @@
 #include <map>
 
 #include "linespace/work/stage.h"
+#include "viewers/files/shadow_vtk.h"
 #include "viewers/files/vtk_cells.h"
 #include "viewers/json_text.h"
 #include "viewers/kinds.h"
@@ -359,6 +360,9 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
         add_strip_blocks(blocks, scene, skeleton, *contents.strips);
       });
     }
+  }
+  if (contents.shadows != nullptr) {
+    write([&](Blocks& blocks) { add_shadow_blocks(blocks, *contents.shadows, stage); });
   }
   write_whole(folder / kVtkIndex, multi_block_text(names));
   std::vector<std::string> files;

@@ -15,13 +15,24 @@ double stored(double linear) {
   return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
 }
 
+/// The value that this share of the surfaces' pixels do not exceed.
+double brightest(const std::vector<LitPixel>& pixels, double share) {
+  std::vector<double> values;
+  for (const LitPixel& pixel : pixels) {
+    if (pixel.kind == LitPixel::Kind::Surface) values.push_back(pixel.value);
+  }
+  if (values.empty()) return 0;
+  const auto rank = static_cast<std::ptrdiff_t>(
+      std::ceil(share * static_cast<double>(values.size() - 1)));
+  std::ranges::nth_element(values, values.begin() + rank);
+  return values[rank];
+}
+
 }  // namespace
 
-Image lit_image(const std::vector<LitPixel>& pixels, int width, int height) {
-  double most = 0;
-  for (const LitPixel& pixel : pixels) {
-    if (pixel.kind == LitPixel::Kind::Surface) most = std::max(most, pixel.value);
-  }
+Image lit_image(const std::vector<LitPixel>& pixels, int width, int height,
+                double share) {
+  const double most = brightest(pixels, share);
   // Umbra stays apart from nothing.
   constexpr double kLeast = 0.004, kBrightest = 0.9;
   Image image{width, height, {}};
@@ -30,8 +41,8 @@ Image lit_image(const std::vector<LitPixel>& pixels, int width, int height) {
     std::array<std::uint8_t, 3> colour{18, 22, 38};
     if (pixel.kind == LitPixel::Kind::Source) colour = {255, 244, 214};
     if (pixel.kind == LitPixel::Kind::Surface) {
-      const double share = most > 0 ? pixel.value / most : 0;
-      colour.fill(byte(stored(kLeast + (kBrightest - kLeast) * share)));
+      const double bright = most > 0 ? std::min(pixel.value / most, 1.0) : 0;
+      colour.fill(byte(stored(kLeast + (kBrightest - kLeast) * bright)));
     }
     image.rgb.insert(image.rgb.end(), colour.begin(), colour.end());
   }

@@ -9,8 +9,11 @@
 
 namespace sightline::viewers {
 
-/// Surfaces in grey, as bright as the light that arrives, brightest at the largest value
-/// of the picture; sources in warm white; nothing in dark blue.
-[[nodiscard]] Image lit_image(const std::vector<LitPixel>& pixels, int width, int height);
+/// Surfaces in grey, as bright as the light that arrives; sources in warm white; nothing
+/// in dark blue.  Brightest is the value that this share of the surfaces' pixels do not
+/// exceed: 1 for the largest; less where a spot beside the light would leave all else
+/// dark.
+[[nodiscard]] Image lit_image(const std::vector<LitPixel>& pixels, int width, int height,
+                              double share = 1);
 
 }  // namespace sightline::viewers

@@ -68,6 +68,15 @@ Json factors_json(const FormFactors& factors, bool sky) {
   return j;
 }
 
+Json matrix_answer(const FormFactors& factors, double accuracy, bool sky) {
+  Json j = factors_json(factors, sky);
+  j["accuracy"] = accuracy;
+  j["pairs"] = {{"facing", factors.pairs},
+                {"open", factors.open},
+                {"partly_hidden", factors.partial}};
+  return j;
+}
+
 void write_factor_csv(const FormFactors& factors, std::ostream& out) {
   out << kFactorCsvHead;
   for (std::size_t i = 0; i < factors.rows.size(); ++i) {

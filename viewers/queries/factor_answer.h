@@ -21,6 +21,10 @@ inline constexpr std::size_t kLargestMatrix = 5000;
 /// "error_bound" and "coincident_area"; null for rows that were not done.
 [[nodiscard]] Json factors_json(const FormFactors& factors, bool sky);
 
+/// The same with "accuracy" as it was asked for, and "pairs": how many were looked at,
+/// and of them how many have nothing in between, or something.
+[[nodiscard]] Json matrix_answer(const FormFactors& factors, double accuracy, bool sky);
+
 inline constexpr std::string_view kFactorCsvHead = "from,to,factor\n";
 /// A line for every entry that is not 0.
 void write_factor_csv(const FormFactors& factors, std::ostream& out);

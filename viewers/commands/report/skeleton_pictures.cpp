@@ -1,4 +1,4 @@
-#include "viewers/commands/skeleton_pictures.h"
+#include "viewers/commands/report/skeleton_pictures.h"
 
 #include <fmt/format.h>
 

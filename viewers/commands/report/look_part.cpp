@@ -1,4 +1,4 @@
-#include "viewers/commands/look_part.h"
+#include "viewers/commands/report/look_part.h"
 
 #include <fmt/format.h>
 

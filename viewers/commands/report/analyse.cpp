@@ -3,19 +3,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <span>
 
 #include "linespace/mesh_io.h"
 #include "skeleton/build.h"
 #include "viewers/builtin_scene.h"
 #include "viewers/commands/command_line.h"
-#include "viewers/commands/look_part.h"
 #include "viewers/commands/outputs.h"
-#include "viewers/commands/skeleton_pictures.h"
+#include "viewers/commands/report/factor_part.h"
+#include "viewers/commands/report/look_part.h"
+#include "viewers/commands/report/report_parts.h"
+#include "viewers/commands/report/shadow_part.h"
+#include "viewers/commands/report/skeleton_pictures.h"
 #include "viewers/json_text.h"
 #include "viewers/page.h"
 #include "viewers/report_folder.h"
@@ -26,14 +30,6 @@ namespace sightline::viewers {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct AnalyseOptions : CommonOptions {
-  ViewpointOptions viewpoints;
-  std::string folder = "sightline-report";
-  std::vector<std::string> only;
-  std::string up;
-  std::vector<double> region;
-};
 
 /// Names what was done and how long it took.
 class StageLog {
@@ -51,76 +47,72 @@ class StageLog {
   Json stages_ = Json::array();
 };
 
-// ---- which parts ----------------------------------------------------------------------
+// ---- the scene and its light ----------------------------------------------------------
 
-/// The parts of a report that this version has, in their order.
-constexpr std::array<const char*, 3> kParts{"info", "skeleton", "look"};
-
-/// What is done, besides the scene and its defects.
-struct Parts {
-  bool skeleton = true, look = true;
-  [[nodiscard]] int count() const { return int{skeleton} + int{look}; }
+/// What is analysed.
+struct Subject {
+  Scene scene;
+  std::vector<std::string> light;  ///< names of groups or polygons; empty: no light
+  std::optional<LightSource> source;
 };
 
-bool is_asked(const AnalyseOptions& options, std::string_view part) {
-  return options.only.empty() || std::ranges::count(options.only, part) > 0;
+/// Ascending numbers of the polygons in the file that these faces are of.
+std::vector<int> polygons_of(const Scene& scene, std::span<const int> faces) {
+  std::vector<int> polygons;
+  for (const int f : faces) polygons.push_back(scene.faces()[f].source);
+  std::ranges::sort(polygons);
+  polygons.erase(std::ranges::unique(polygons).begin(), polygons.end());
+  return polygons;
 }
 
-Parts parts_of(const AnalyseOptions& options) {
-  for (const std::string& name : options.only) {
-    if (std::ranges::count(kParts, name) > 0) continue;
-    throw UsageError(
-        fmt::format("--only: '{}' is not available in this version; available: {}", name,
-                    fmt::join(kParts, ", ")));
+/// These polygons of the file: the names of objects that they are the whole of, and
+/// `#i-j` for each run of the rest.  Those without an area are passed over.
+std::vector<std::string> names_of(const Scene& scene, const std::vector<int>& given) {
+  if (given.empty()) return {};
+  std::vector<int> all(scene.faces().size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<int> polygons;
+  std::ranges::set_intersection(given, polygons_of(scene, all),
+                                std::back_inserter(polygons));
+  std::vector<std::string> names;
+  for (const Object& object : scene.objects()) {
+    const std::vector<int> own = polygons_of(scene, scene.faces_named(object.name));
+    if (own.empty() || !std::ranges::includes(polygons, own)) continue;
+    names.push_back(object.name);
+    std::vector<int> left;
+    std::ranges::set_difference(polygons, own, std::back_inserter(left));
+    polygons = std::move(left);
   }
-  const bool from = !options.viewpoints.empty();
-  if (!options.only.empty() && is_asked(options, "look") && !from) {
-    throw UsageError("--only look: from where? name --from x,y,z or --direction x,y,z");
+  for (std::size_t i = 0; i < polygons.size();) {
+    std::size_t end = i + 1;
+    while (end < polygons.size() && polygons[end] == polygons[end - 1] + 1) ++end;
+    names.push_back(fmt::format("#{}-{}", polygons[i], polygons[end - 1]));
+    i = end;
   }
-  return {is_asked(options, "skeleton"), is_asked(options, "look") && from};
+  return names;
 }
 
-/// A word of the shell.
-std::string quoted(const std::string& word) {
-  const auto plain = [](unsigned char c) {
-    return std::isalnum(c) != 0 ||
-           std::string_view("_-./,+:@%").find(c) != std::string::npos;
-  };
-  if (!word.empty() && std::ranges::all_of(word, plain)) return word;
-  std::string text = "'";
-  for (const char c : word) text += c == '\'' ? "'\\''" : std::string(1, c);
-  return text + "'";
-}
-
-/// [{"part", "why", "command"}] of what could have been done and was not asked for.
-Json left_out_json(const AnalyseOptions& options, const Parts& parts,
-                   const std::vector<ViewQuestion>& questions, const fs::path& folder) {
-  const std::string scene = quoted(
-      options.scene.empty() ? (folder / kBuiltinSceneName).string() : options.scene);
-  Json left = Json::array();
-  const auto add = [&](const char* part, const char* why, const std::string& more) {
-    left.push_back({{"part", part},
-                    {"why", why},
-                    {"command", fmt::format("sightline {} {}{}", part, scene, more)}});
-  };
-  constexpr const char* kNotAmong = "not among --only";
-  if (!parts.skeleton) add("skeleton", kNotAmong, "");
-  if (parts.look) return left;
-  std::string from;
-  for (const ViewQuestion& question : questions) from += " " + question.where;
-  add("look", questions.empty() ? "neither --from nor --direction is given" : kNotAmong,
-      questions.empty() ? " --from x,y,z" : from);
-  return left;
-}
-
-Json options_json(const AnalyseOptions& options, const Parts& parts) {
-  Json j{{"only", Json::array({"info"})}};
-  if (parts.skeleton) j["only"].push_back("skeleton");
-  if (parts.look) j["only"].push_back("look");
-  j["precision"] = options.precision == Precision::Exact ? "exact" : "double";
-  if (std::isfinite(options.budget)) j["budget"] = options.budget;
-  if (!options.region.empty()) j["region"] = options.region;
-  return j;
+/// The light is what --light names, else what the file marks as emitting.
+Subject load(Session& session, const AnalyseOptions& options, ReportFolder& folder) {
+  Subject subject = [&]() -> Subject {
+    if (!options.scene.empty()) {
+      MeshFile file = read_file(session, options.scene, options.format);
+      const std::vector<int> emitting = std::move(file.emitting);
+      Scene scene(std::move(file), {}, session.with_grace());
+      std::vector<std::string> light = names_of(scene, emitting);
+      return {std::move(scene), std::move(light), {}};
+    }
+    const fs::path file = folder.announce(std::string(kBuiltinSceneName));
+    write_whole(file, builtin_scene());
+    PolygonSoup soup = read_mesh(file.string());
+    soup.source = std::string(kBuiltinSceneName) + " (built in)";
+    return {Scene(std::move(soup)), {std::string(kBuiltinSceneLight)}, {}};
+  }();
+  if (!options.light.empty()) subject.light = options.light;
+  if (!subject.light.empty()) {
+    subject.source = light_source(subject.scene, subject.light);
+  }
+  return subject;
 }
 
 // ---- what is computed -----------------------------------------------------------------
@@ -130,13 +122,13 @@ struct Analysis {
   std::vector<Defect> defects;
   std::optional<Skeleton> skeleton;
   std::optional<LookPart> look;
-  std::string why_no_skeleton, why_no_look;  ///< where the part is not complete
+  std::optional<ShadowPart> shadows;
+  std::optional<FactorPart> factors;
+  std::map<std::string, std::string> why_not_all;  ///< by part, where it is not complete
   StageCounts predicates;
   std::size_t memory = 0;  ///< before pictures add theirs
 
-  [[nodiscard]] bool complete() const {
-    return (!skeleton || skeleton->complete) && (!look || look->complete());
-  }
+  [[nodiscard]] bool complete() const { return why_not_all.empty(); }
 };
 
 /// Of a part that has just ended.
@@ -163,21 +155,19 @@ int up_axis_of(const AnalyseOptions& options) {
   return options.up.empty() ? -1 : options.up[0] - 'x';
 }
 
-LookPart look_part(Session& session, const AnalyseOptions& options, const Scene& scene,
-                   const std::vector<ViewQuestion>& questions, int shares) {
+Request part_request(Session& session, const AnalyseOptions& options, int shares) {
   Request request;
   request.precision = options.precision;
   request.threads = options.threads;
   session.limit(request, shares);
-  const int axis = up_axis_of(options);
-  const Point up = Point::Unit(axis < 0 ? guess_up_axis(scene) : axis);
-  return look_part(session, scene, questions, up, request);
+  return request;
 }
 
 /// Each part within an equal share of what is left of the budget.
 Analysis analysed(Session& session, const AnalyseOptions& options, const Parts& parts,
-                  const std::vector<ViewQuestion>& questions, const Scene& scene,
+                  const std::vector<ViewQuestion>& questions, const Subject& subject,
                   StageLog& log) {
+  const Scene& scene = subject.scene;
   const Meter meter;
   Analysis analysis;
   // The search for defects has the grace of writing: without it the report would look
@@ -186,19 +176,33 @@ Analysis analysed(Session& session, const AnalyseOptions& options, const Parts& 
   log.done("look for defects");
   analysis.predicates = meter.predicates();
   int shares = parts.count();
+  const int axis = up_axis_of(options), up_axis = axis < 0 ? guess_up_axis(scene) : axis;
+  const auto ended = [&](const char* part, bool complete, const StageCounts& predicates,
+                         const char* stage) {
+    if (!complete) analysis.why_not_all[part] = why_not_all(session, part);
+    analysis.predicates = analysis.predicates + predicates;
+    log.done(stage);
+  };
   if (parts.skeleton) {
-    analysis.skeleton = skeleton_part(session, options, scene, shares--);
-    if (!analysis.skeleton->complete) {
-      analysis.why_no_skeleton = why_not_all(session, "skeleton");
-    }
-    analysis.predicates = analysis.predicates + analysis.skeleton->predicates;
-    log.done("visibility skeleton");
+    const Skeleton& skeleton =
+        analysis.skeleton.emplace(skeleton_part(session, options, scene, shares--));
+    ended("skeleton", skeleton.complete, skeleton.predicates, "visibility skeleton");
   }
   if (parts.look) {
-    analysis.look = look_part(session, options, scene, questions, shares--);
-    if (!analysis.look->complete()) analysis.why_no_look = why_not_all(session, "look");
-    analysis.predicates = analysis.predicates + analysis.look->predicates;
-    log.done("views");
+    const LookPart& look =
+        analysis.look.emplace(look_part(session, scene, questions, Point::Unit(up_axis),
+                                        part_request(session, options, shares--)));
+    ended("look", look.complete(), look.predicates, "views");
+  }
+  if (parts.shadows) {
+    const ShadowPart& shadows = analysis.shadows.emplace(shadow_part(
+        scene, *subject.source, up_axis, part_request(session, options, shares--)));
+    ended("shadows", shadows.complete(), shadows.predicates, "shadows");
+  }
+  if (parts.factors) {
+    const FactorPart& factors = analysis.factors.emplace(
+        factor_part(scene, part_request(session, options, shares--)));
+    ended("formfactors", factors.factors.complete, factors.predicates, "form factors");
   }
   analysis.memory = peak_memory_bytes();
   return analysis;
@@ -208,7 +212,6 @@ Analysis analysed(Session& session, const AnalyseOptions& options, const Parts& 
 
 void add_missing(Json& missing, const std::string& why, std::size_t done,
                  std::size_t asked, const char* what) {
-  if (done == asked) return;
   missing.push_back(fmt::format(
       "{}: {} of {} were not computed ({:.1f} %)", why,
       fmt::format(fmt::runtime(what), asked - done), asked,
@@ -217,21 +220,34 @@ void add_missing(Json& missing, const std::string& why, std::size_t done,
 
 Json missing_json(const Analysis& analysis, const Session& session) {
   Json missing = Json::array();
+  const auto add = [&](const char* part, std::size_t done, std::size_t asked,
+                       const char* what) {
+    if (done != asked)
+      add_missing(missing, analysis.why_not_all.at(part), done, asked, what);
+  };
   if (analysis.skeleton) {
     const Skeleton& skeleton = *analysis.skeleton;
-    const auto add = [&](std::size_t done, std::size_t asked, const char* what) {
-      add_missing(missing, analysis.why_no_skeleton, done, asked, what);
-    };
-    add(skeleton.vertices_done, skeleton.vertices_asked, "the EV arcs of {}");
-    add(skeleton.edges_done, skeleton.edges_asked, "the EEE arcs of {}");
-    add(skeleton.facets_done, skeleton.facets_asked, "the FF nodes of {}");
+    add("skeleton", skeleton.vertices_done, skeleton.vertices_asked, "the EV arcs of {}");
+    add("skeleton", skeleton.edges_done, skeleton.edges_asked, "the EEE arcs of {}");
+    add("skeleton", skeleton.facets_done, skeleton.facets_asked, "the FF nodes of {}");
     if (!skeleton.complete && missing.empty()) {
       missing.push_back("The skeleton: stopped in its set-up");
     }
   }
   if (analysis.look) {
-    add_missing(missing, analysis.why_no_look, analysis.look->views.size(),
-                analysis.look->asked, "{} views");
+    add("look", analysis.look->views.size(), analysis.look->asked, "{} views");
+  }
+  if (const auto& part = analysis.shadows) {
+    add("shadows", part->asked - part->shadows.missing.size(), part->asked,
+        "the shadows on {} groups");
+    if (part->png.empty()) {
+      missing.push_back(analysis.why_not_all.at("shadows") +
+                        ": the picture under the light was not drawn");
+    }
+  }
+  if (const auto& part = analysis.factors) {
+    add("formfactors", part->factors.rows.size(), part->factors.names.size(),
+        "the form factors from {} groups");
   }
   for (const std::string& name : session.unwritten()) {
     missing.push_back("Not written: " + name);
@@ -240,15 +256,6 @@ Json missing_json(const Analysis& analysis, const Session& session) {
 }
 
 // ---- what is written ------------------------------------------------------------------
-
-Scene load(Session& session, const AnalyseOptions& options, ReportFolder& folder) {
-  if (!options.scene.empty()) return read_scene(session, options.scene, options.format);
-  const fs::path file = folder.announce(std::string(kBuiltinSceneName));
-  write_whole(file, builtin_scene());
-  PolygonSoup soup = read_mesh(file.string());
-  soup.source = std::string(kBuiltinSceneName) + " (built in)";
-  return Scene(std::move(soup));
-}
 
 /// skeleton.json, for `view` and `skeleton --saved`.
 void save_skeleton(Session& session, const AnalyseOptions& options, const Scene& scene,
@@ -283,8 +290,12 @@ void write_vtk_part(
 
 /// Pictures of the page.
 struct Pictures {
-  std::vector<PagePicture> skeleton, views;
+  std::vector<PagePicture> skeleton, views, light;
 };
+
+const char* incomplete(const Json& part) {
+  return part["complete"].get<bool>() ? "" : ", INCOMPLETE";
+}
 
 void print_skeleton(const Json& s, const std::string& file) {
   std::cout << fmt::format(
@@ -292,8 +303,7 @@ void print_skeleton(const Json& s, const std::string& file) {
       s["arcs"]["EV"].get<std::int64_t>() + s["arcs"]["EV_self"].get<std::int64_t>(),
       s["arcs"]["EV_self"].get<std::int64_t>(),
       s["arcs"]["EEE"].get<std::int64_t>() + s["arcs"]["EEE_self"].get<std::int64_t>(),
-      s["arcs"]["EEE_self"].get<std::int64_t>(),
-      s["complete"].get<bool>() ? "" : ", INCOMPLETE");
+      s["arcs"]["EEE_self"].get<std::int64_t>(), incomplete(s));
   for (const auto& [kind, count] : s["nodes"].items()) {
     if (count.is_number() && count != 0) {
       std::cout << fmt::format(" {} {}", kind, count.get<std::int64_t>());
@@ -302,17 +312,37 @@ void print_skeleton(const Json& s, const std::string& file) {
   std::cout << "\n";
 }
 
+void print_shadows(const Json& shadows, const std::string& file) {
+  double lit = 0, penumbra = 0, umbra = 0;
+  for (const Json& r : shadows["receivers"]) {
+    lit += r["lit_area"].get<double>();
+    penumbra += r["penumbra_area"].get<double>();
+    umbra += r["umbra_area"].get<double>();
+  }
+  std::cout << fmt::format(
+      "{}: shadows on {}: lit {:.6g}, penumbra {:.6g}, umbra {:.6g}{}\n", file,
+      counted(shadows["receivers"].size(), "group", "groups"), lit, penumbra, umbra,
+      incomplete(shadows));
+}
+
+void print_factors(const Json& factors, const std::string& file) {
+  std::cout << fmt::format("{}: form factors between {}, each within {:.1e}{}\n", file,
+                           counted(factors["groups"].size(), "group", "groups"),
+                           factors["error_bound"].get<double>(), incomplete(factors));
+}
+
 void print_summary(const Json& report, const std::vector<ViewQuestion>& questions,
                    const fs::path& folder) {
   const std::string file = report["scene"]["file"].get<std::string>();
   if (report.contains("skeleton")) print_skeleton(report["skeleton"], file);
   if (report.contains("look")) {
     const Json& views = report["look"]["views"];
-    std::cout << fmt::format(
-        "{}: {}{}\n", file, counted(views.size(), "view", "views"),
-        report["look"]["complete"].get<bool>() ? "" : ", INCOMPLETE");
+    std::cout << fmt::format("{}: {}{}\n", file, counted(views.size(), "view", "views"),
+                             incomplete(report["look"]));
     print_views(questions, views);
   }
+  if (report.contains("shadows")) print_shadows(report["shadows"], file);
+  if (report.contains("formfactors")) print_factors(report["formfactors"], file);
   std::cout << fmt::format("{}  {:.2f} s, {:.0f} MiB\n  open {}\n",
                            report["complete"].get<bool>()
                                ? ""
@@ -324,8 +354,8 @@ void print_summary(const Json& report, const std::vector<ViewQuestion>& question
 
 /// skeleton.json, VTK files and pictures, in the order of what they cost.
 void write_skeleton(Session& session, const AnalyseOptions& options, const Scene& scene,
-                    const Skeleton& skeleton, ReportFolder& folder, Pictures& pictures,
-                    StageLog& log) {
+                    const Skeleton& skeleton, const Shadows* shadows,
+                    ReportFolder& folder, Pictures& pictures, StageLog& log) {
   save_skeleton(session, options, scene, skeleton, folder);
   log.done("saved skeleton");
   // `lines` finds free segments: made once, by the first of two steps that gets so far,
@@ -337,7 +367,7 @@ void write_skeleton(Session& session, const AnalyseOptions& options, const Scene
                    lines.emplace(scene, writing);
                    const std::vector<RuledStrip> strips =
                        strips_of(scene, *lines, skeleton, highlights.vertex);
-                   return write_vtk(vtk, scene, {&skeleton, &strips}, writing);
+                   return write_vtk(vtk, scene, {&skeleton, &strips, shadows}, writing);
                  });
   log.done("VTK files");
   // All pictures or none: the page shows only those that were drawn to the end.
@@ -362,12 +392,27 @@ Pictures write_parts(Session& session, const AnalyseOptions& options, const Scen
     pictures.views = write_look(session, *analysis.look, std::move(head), folder);
     log.done("saved views");
   }
+  if (analysis.shadows) {
+    Json head = answer_head("shadows", scene, analysis.shadows->complete(),
+                            {session.seconds(), analysis.shadows->predicates});
+    pictures.light =
+        write_shadow_part(session, *analysis.shadows, std::move(head), folder);
+    log.done("saved shadows");
+  }
+  if (analysis.factors) {
+    Json head = answer_head("formfactors", scene, analysis.factors->factors.complete,
+                            {session.seconds(), analysis.factors->predicates});
+    write_factor_part(session, *analysis.factors, std::move(head), folder);
+    log.done("saved form factors");
+  }
+  const Shadows* shadows = analysis.shadows ? &analysis.shadows->shadows : nullptr;
   if (analysis.skeleton) {
-    write_skeleton(session, options, scene, *analysis.skeleton, folder, pictures, log);
+    write_skeleton(session, options, scene, *analysis.skeleton, shadows, folder, pictures,
+                   log);
   } else {
     write_vtk_part(session, options, folder,
                    [&](const fs::path& vtk, const Request& writing) {
-                     return write_vtk(vtk, scene, {}, writing);
+                     return write_vtk(vtk, scene, {.shadows = shadows}, writing);
                    });
     log.done("VTK files");
   }
@@ -377,13 +422,14 @@ Pictures write_parts(Session& session, const AnalyseOptions& options, const Scen
 /// The report, which knows by now what is missing, without its list of files.
 Json report_json(const Session& session, const AnalyseOptions& options,
                  const Parts& parts, const std::vector<ViewQuestion>& questions,
-                 const Scene& scene, const Analysis& analysis) {
+                 const Subject& subject, const Analysis& analysis) {
+  const Scene& scene = subject.scene;
   const bool complete = analysis.complete() && session.unwritten().empty();
   Json report =
       answer_head("analyse", scene, complete, {session.seconds(), analysis.predicates});
   report["peak_memory_bytes"] = analysis.memory;
   report["peak_memory_bytes_with_pictures"] = peak_memory_bytes();
-  report["options"] = options_json(options, parts);
+  report["options"] = options_json(options, parts, subject.light);
   report["info"] = info_json(scene, analysis.defects);
   if (analysis.skeleton) {
     report["skeleton"] = skeleton_json(*analysis.skeleton);
@@ -394,7 +440,17 @@ Json report_json(const Session& session, const AnalyseOptions& options,
          {"predicates", stage_counts(analysis.skeleton->predicates)}});
   }
   if (analysis.look) report["look"] = look_json(*analysis.look);
-  report["left_out"] = left_out_json(options, parts, questions, options.folder);
+  if (analysis.shadows) {
+    report["shadows"] = shadow_part_json(*analysis.shadows);
+    report["shadows"]["light"] = subject.light;
+  }
+  if (analysis.factors) {
+    // Larger matrices stay in their file.
+    report["formfactors"] =
+        factor_part_json(*analysis.factors, scene.objects().size() <= kMostFactorGroups);
+  }
+  report["left_out"] =
+      left_out_json(options, parts, subject.light, questions, options.folder);
   report["missing"] = missing_json(analysis, session);
   return report;
 }
@@ -402,7 +458,7 @@ Json report_json(const Session& session, const AnalyseOptions& options,
 ExitStatus run(Session& session, const AnalyseOptions& options) {
   // 1. Outputs first: a folder that cannot be written is refused before the work.  Two
   // kinds of names are ours: those of the report, and in `vtk` those of VTK files.
-  const Parts parts = parts_of(options);
+  check_parts(options);
   Outputs outputs(options);
   ReportFolder folder(options.folder);
   outputs.add_folder("-o", folder.path(),
@@ -419,9 +475,11 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
   // 2. The scene and the parts.
   StageLog log;
   const PrecisionScope precision(options.precision);
-  const Scene scene = load(session, options, folder);
+  const Subject subject = load(session, options, folder);
+  const Scene& scene = subject.scene;
+  const Parts parts = parts_of(options, scene, subject.light);
   log.done("load the scene");
-  const Analysis analysis = analysed(session, options, parts, questions, scene, log);
+  const Analysis analysis = analysed(session, options, parts, questions, subject, log);
 
   // 3. Files.  Those of an earlier run go first, so that the folder is of one run only.
   folder.clear();
@@ -429,14 +487,15 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
 
   // 4. The report.  The page is made of it and of the pictures alone, so that both say
   // the same.
-  Json report = report_json(session, options, parts, questions, scene, analysis);
+  Json report = report_json(session, options, parts, questions, subject, analysis);
   report["stages"] = log.stages();
   // Announced before the list of files is taken: they are in it themselves.
   const fs::path report_file = folder.announce("report.json");
   const fs::path page = folder.announce("index.html");
   report["files"] = folder.files();
   write_whole(report_file, json_text(report, 1) + "\n");
-  write_whole(page, report_page(report, pictures.skeleton, pictures.views));
+  write_whole(page,
+              report_page(report, pictures.skeleton, pictures.views, pictures.light));
   outputs.write_answer(report);
   if (options.may_print()) print_summary(report, questions, folder.path());
   return session.end(report["complete"]);
@@ -456,18 +515,25 @@ Command add_analyse_command(CLI::App& app) {
   command
       ->add_option(
           "-o,--output", options->folder,
-          "folder for index.html, report.json, skeleton.json, look.json, pictures "
-          "and VTK files; of what it holds, only what an earlier run wrote is removed, "
+          "folder for index.html, report.json, a .json file for each part, tables, "
+          "pictures and VTK files; of what it holds, only what an earlier run wrote is "
+          "removed, "
           "which its files.txt lists (default sightline-report)")
       ->type_name("DIR");
   command
       ->add_option("--only", options->only,
                    "only these parts, separated by commas: info (always done), skeleton, "
-                   "look (default: skeleton, and look where --from or --direction is "
-                   "given)")
+                   "look, shadows, formfactors (default: skeleton; look where --from or "
+                   "--direction is given; with a light shadows, and formfactors of up to "
+                   "100 groups)")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false);
+  add_names_option(
+      *command, "--light", options->light,
+      "the light of shadows: all faces of these groups, or polygons #i-j, by "
+      "their fronts (default: what the file marks as emitting, glTF; of the "
+      "built-in room its lamp)");
   add_viewpoint_options(*command, options->viewpoints);
   command
       ->add_option("--up", options->up,
