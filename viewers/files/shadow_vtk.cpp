@@ -117,6 +117,26 @@ void add_edge(Cells& cells, const ReceiverShadows& receiver, const ShadowMesh& m
   }
 }
 
+Cells surface_of(const ShadowVolume& volume, ShadowClass shadow) {
+  Cells cells;
+  std::vector<vtkIdType> ids;
+  for (const ExactPosition& v : volume.vertices)
+    ids.push_back(cells.add_point(v.nearest));
+  for (std::size_t i = 0; i < volume.sides.size(); ++i) {
+    const ShadowVolume::Side& side = volume.sides[i];
+    std::vector<vtkIdType> corners;
+    for (const int c : side.corners) corners.push_back(ids[c]);
+    cells.add_polygon(corners, colour_of(shadow));
+    cells.value("side", {static_cast<int>(i)});
+    cells.value("kind", std::string(name(side.kind)));
+    std::string generators;
+    for (const std::string& g : side.generators)
+      generators += (generators.empty() ? "" : "; ") + g;
+    cells.value("generators", generators);
+  }
+  return cells;
+}
+
 /// fill(cells, receiver, mesh) for all meshes.
 template <class Fill>
 Cells cells_of(const Shadows& shadows, Stage& stage, Fill&& fill) {
@@ -134,6 +154,7 @@ Cells cells_of(const Shadows& shadows, Stage& stage, Fill&& fill) {
 
 std::vector<std::string> write_vtk_shadows(const std::filesystem::path& folder,
                                            const Scene& scene, const Shadows& shadows,
+                                           const ShadowVolumes* volumes,
                                            const Request& request) {
   std::vector<std::string> names = write_vtk(folder, scene, {}, request);
   Stage stage(request, "VTK files");
@@ -168,6 +189,10 @@ std::vector<std::string> write_vtk_shadows(const std::filesystem::path& folder,
           cells.value("vertex", {v});
         }
       }));
+  if (volumes != nullptr) {
+    write("shadow_umbra", surface_of(volumes->umbra(), ShadowClass::Umbra));
+    write("shadow_penumbra", surface_of(volumes->shadow(), ShadowClass::Penumbra));
+  }
   write_whole(folder / kVtkIndex, multi_block_text(blocks));
   names.emplace_back(kVtkIndex);
   return names;
