@@ -11,6 +11,7 @@
 
 namespace sightline {
 struct Shadows;
+class ShadowVolumes;
 }
 
 namespace sightline::viewers {
@@ -22,6 +23,8 @@ struct VtkContents {
   const std::vector<RuledStrip>* strips = nullptr;
   /// Discontinuity meshes.
   const Shadows* shadows = nullptr;
+  /// Umbra and penumbra in space.
+  const ShadowVolumes* volumes = nullptr;
 };
 
 /// Writes into `folder` (made if need be) and returns the names of the files:
@@ -53,6 +56,8 @@ struct VtkContents {
 ///   shadow_vertices.vtp
 ///               their vertices; receiver, facet, vertex.  Numbers are those of the
 ///               answer of `sightline shadows --list`
+///   shadow_umbra.vtp, shadow_penumbra.vtp
+///               the surfaces of the volumes, a polygon each side; side, kind, generators
 ///   sightline.vtm
 ///               all of these as named blocks
 /// A cell of an EEE arc takes some 100 bytes and 60 a line of its strip, in memory and in

@@ -46,6 +46,9 @@ VIEWS = {
     "seen_blocker_cuts_the_source": ("cuts_the_source", "8,0,0", "0,0,1", []),
 }
 
+# picture: scene, options
+VOLUMES = {"volumes": ("volumes", [])}
+
 FILL = {"umbra": "#4a4f5c", "penumbra": "#b9bdc8", "lit": "#fff6d5"}
 STROKE = {"EV": "#1f6fb4", "EE": "#2a9d5c", "EEE": "#d62828", "face": "#c77d0a",
           "contact": "#101010", "plane": "#8a5cc2", "boundary": "#606060"}
@@ -161,12 +164,45 @@ def view(program, name, scene, point, normal, options):
     return picture(name, elements)
 
 
+def volumes(program, name, scene, options):
+    """Seen from the side and a little from above; what is farther is drawn first."""
+    answer = ask(program, scene, [*options, "--volumes"])["volumes"]
+    half = 7.5
+
+    def flat(points):
+        return [(x + 0.35 * y, z * 1.3 - 2 + 0.3 * y) for x, y, z in points]
+
+    def number(text):
+        over = str(text).split("/")
+        return float(over[0]) / float(over[1]) if len(over) == 2 else float(over[0])
+
+    elements = []
+    for group, corners in polygons(scene):
+        if group == "ground":
+            elements.append(f'<path d="{path(flat(corners), half)}" fill="{FILL["lit"]}"/>')
+    for which, opacity in (("penumbra", 0.45), ("umbra", 0.55)):
+        body = answer[which]
+        at = [[number(x) for x in v] for v in body["vertices"]]
+        sides = [[at[c] for c in side["corners"]] for side in body["sides"]]
+        for side in sorted(sides, key=lambda s: -sum(p[1] for p in s) / len(s)):
+            elements.append(f'<path d="{path(flat(side), half)}" fill="{FILL[which]}" '
+                            f'fill-opacity="{opacity}" stroke="{STROKE["boundary"]}" '
+                            'stroke-width="4"/>')
+    for group, corners in polygons(scene):
+        if group != "ground":
+            colour = "#e0a000" if group == "lamp" else "#101010"
+            elements.append(f'<path d="{path(flat(corners), half)}" stroke="{colour}"/>')
+    return picture(name, elements)
+
+
 def pictures(program):
     """Name and SVG of every picture."""
     for name, (scene, half, options) in PLANS.items():
         yield f"shadow_{name}", plan(program, name, scene, half, options)
     for name, (scene, point, normal, options) in VIEWS.items():
         yield f"shadow_{name}", view(program, name, scene, point, normal, options)
+    for name, (scene, options) in VOLUMES.items():
+        yield f"shadow_{name}", volumes(program, name, scene, options)
 
 
 def main():

@@ -248,6 +248,69 @@ TEST_F(CliShadows, WithoutAPlate) {
   EXPECT_NEAR(r[0].at("lit_area").get<double>(), 256, 1e-10);
 }
 
+TEST_F(CliShadows, Volumes) {
+  const json j = answer(kPlate + " --volumes --solid plate --vtk " + file("vtk"));
+  const json& v = j.at("volumes");
+  EXPECT_NEAR(v.at("umbra").at("volume").get<double>(), 37 / 1.5, 1e-12);
+  EXPECT_NEAR(v.at("penumbra").at("volume").get<double>(), 40, 1e-12);
+  EXPECT_EQ(v.at("away_volume"), 0);
+  EXPECT_EQ(v.at("solid_volume"), 0);
+  EXPECT_FALSE(j.contains("receivers")) << "none asked for beside volumes";
+  const json& umbra = v.at("umbra");
+  EXPECT_EQ(umbra.at("vertices").size(), 8U);
+  ASSERT_EQ(umbra.at("sides").size(), 6U);
+  for (const json& side : umbra.at("sides")) {
+    EXPECT_EQ(side.at("corners").size(), 4U);
+    EXPECT_FALSE(side.at("generators").empty());
+  }
+  for (const char* name : {"shadow_umbra.vtp", "shadow_penumbra.vtp", "sightline.vtm"})
+    EXPECT_TRUE(fs::exists(file("vtk") + "/" + name)) << name;
+  ASSERT_EQ(run(kScenes + "corner.obj --light lamp --volumes"), 0);
+  EXPECT_NE(out().find("volumes: umbra 11.3333 (the solid 4)"), std::string::npos)
+      << out();
+  // Coordinates that no double holds.
+  const json exact = answer(kScenes + "volumes.obj --light lamp --volumes");
+  EXPECT_NE(exact.dump().find('/'), std::string::npos);
+}
+
+TEST_F(CliShadows, VolumesThatAreRefused) {
+  expect_refused(kPlate + " --volumes", "no closed object");
+  expect_refused(kPlate + " --volumes --solid plat", "did you mean 'plate'?");
+  expect_refused(kPlate + " --solid plate", "--solid");
+  expect_refused(kScenes + "l_shaped.obj --light lamp --volumes", "no convex polygon");
+  expect_refused(kScenes + "cuts_the_source.obj --light lamp --volumes",
+                 "cuts the source");
+  expect_refused(kPlate + " --volumes --solid plate --both-sides lamp", "both sides");
+}
+
+TEST_F(CliShadows, FeatureSize) {
+  const std::string scene = kScenes + "corner.obj --light lamp";
+  const json all = answer(scene);
+  const json zero = answer(scene + " --feature-size 0");
+  EXPECT_EQ(zero.at("mesh"), all.at("mesh"));
+  EXPECT_FALSE(zero.contains("left_out"));
+  // The box's diagonal is 3.
+  const json none = answer(scene + " --feature-size 3");
+  EXPECT_EQ(none.at("mesh"), all.at("mesh"));
+  EXPECT_EQ(none.at("left_out"), json::array());
+  EXPECT_EQ(none.at("form_factor_error_bound"), 0);
+  const std::string points = file("p.txt", "0,0,0,0,0,1\n");
+  const json out =
+      answer(scene + " --feature-size 3.01 --receivers ground --at " + points);
+  ASSERT_EQ(out.at("left_out").size(), 1U);
+  EXPECT_EQ(out.at("left_out")[0].at("group"), "box");
+  EXPECT_EQ(out.at("left_out")[0].at("polygons").size(), 6U);
+  EXPECT_EQ(out.at("left_out")[0].at("diagonal"), 3);
+  EXPECT_GT(out.at("form_factor_error_bound"), 0.05);
+  EXPECT_LE(out.at("form_factor_error_bound"), 1);
+  EXPECT_EQ(out.at("receivers")[0].at("lit_area"), 256);
+  EXPECT_LT(out.at("points")[0].at("visible_fraction"), 1) << "points are exact";
+  // A receiver that is named stays.
+  EXPECT_EQ(answer(scene + " --feature-size 4 --receivers box").at("left_out"),
+            json::array());
+  expect_refused(scene + " --feature-size -1", "--feature-size");
+}
+
 TEST_F(CliShadows, SeveralLightsByNamesAndNumbers) {
   const std::string scene = kScenes + "several_at_once.obj";
   const std::string at = " --at " + file("p.txt", "0,0,0,0,0,1\n");

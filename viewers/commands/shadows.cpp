@@ -20,6 +20,7 @@
 #include "viewers/queries/mesh_answer.h"
 #include "viewers/queries/shadow_answer.h"
 #include "viewers/queries/shadow_questions.h"
+#include "viewers/queries/volume_answer.h"
 #include "viewers/vtk_export.h"
 
 namespace sightline::viewers {
@@ -34,7 +35,14 @@ struct ShadowOptions : CommonOptions {
   std::string size = "640x480";
   int rays = 0;
   std::uint64_t seed = 1;
+  bool volumes = false;
+  std::string solid;
+  double feature_size = 0;  ///< scene units
 
+  [[nodiscard]] bool asks_receivers() const {
+    return !receivers.empty() || (!vtk.empty() && !volumes) ||
+           (at.empty() && png.empty() && !volumes);
+  }
   [[nodiscard]] bool may_print() const {
     return CommonOptions::may_print() && csv != "-" && png != "-";
   }
@@ -118,6 +126,70 @@ void write_picture(Session& session, const ShadowOptions& options, const Scene& 
 
 // ---- receivers ------------------------------------------------------------------------
 
+/// The scene without small blockers, and which these are.  Never left out: the source,
+/// and receivers that are named.
+struct ReceivingScene {
+  Scene scene;
+  LightSource light;
+  LeftOut left_out;
+};
+
+ReceivingScene without_small_blockers(Session& session, const ShadowOptions& options,
+                                      const Scene& file, const Scene& scene,
+                                      const LightSource& light) {
+  std::vector<int> kept = light.faces;
+  for (const std::string& name : options.receivers) {
+    const auto faces = scene.faces_named(name);
+    kept.insert(kept.end(), faces.begin(), faces.end());
+  }
+  LeftOut left_out{options.feature_size, small_parts(scene, options.feature_size, kept)};
+  if (left_out.parts.empty()) return {scene, light, left_out};
+  // What is left receives; the bound holds there.
+  std::vector<std::uint8_t> is_out(scene.faces().size(), 0);
+  for (const SmallPart& part : left_out.parts) {
+    for (const int f : part.faces) is_out[f] = 1;
+  }
+  std::vector<Receiver> receivers = receivers_of(scene, light, options.receivers, options.both_sides);
+  for (Receiver& receiver : receivers)
+    std::erase_if(receiver.faces, [&](int f) { return is_out[f] != 0; });
+  Request request = request_of(session, options);
+  session.limit(request);
+  left_out.bound = left_out_bound(scene, light, receivers, left_out.parts, request);
+  std::vector<std::string> names = options.without;
+  std::ranges::move(left_out.names(), std::back_inserter(names));
+  Scene rest = scene_without(file, names, session.with_grace());
+  LightSource its_light = light_source(rest, options.light, options.both_sides);
+  return {std::move(rest), std::move(its_light), std::move(left_out)};
+}
+
+/// The one closed object that is no part of the source, or the group that --solid names.
+std::string solid_of(const ShadowOptions& options, const Scene& scene,
+                     const LightSource& light) {
+  if (!options.solid.empty()) return options.solid;
+  std::string found;
+  for (const Object& object : scene.objects()) {
+    const bool shines = std::ranges::any_of(
+        object.faces, [&](int f) { return std::ranges::binary_search(light.faces, f); });
+    if (!object.closed || shines || object.faces.empty()) continue;
+    if (!found.empty()) {
+      throw UsageError(
+          fmt::format("--volumes: '{}' and '{}' are both closed; name one with --solid",
+                      escaped_bytes(found), escaped_bytes(object.name)));
+    }
+    found = object.name;
+  }
+  if (found.empty())
+    throw UsageError("--volumes: no closed object beside the source; name a --solid");
+  return found;
+}
+
+std::optional<ShadowVolumes> ask_volumes(Session& session, const ShadowOptions& options,
+                                         const Scene& scene, const LightSource& light) {
+  if (!options.volumes) return std::nullopt;
+  session.begin("volumes");
+  return ShadowVolumes(scene, light, scene.faces_named(solid_of(options, scene, light)));
+}
+
 void print_receivers(const Shadows& shadows) {
   for (const ReceiverShadows& r : shadows.receivers) {
     std::size_t edges = 0, faces = 0;
@@ -153,28 +225,35 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
   if (!options.at.empty()) outputs.protect(options.at);
   const Meter meter;
   const PrecisionScope precision(options.precision);
-  Scene scene = read_scene(session, options.scene, options.format);
-  if (!options.without.empty()) {
-    session.begin("scene without faces");
-    scene = scene_without(scene, options.without, session.with_grace());
-  }
+  const Scene file = read_scene(session, options.scene, options.format);
+  if (!options.without.empty()) session.begin("scene without faces");
+  const Scene scene = options.without.empty()
+                          ? file
+                          : scene_without(file, options.without, session.with_grace());
   const LightSource light = light_source(scene, options.light, options.both_sides);
   std::vector<ShadowQuestion> questions;
   if (!options.at.empty())
     questions = session.read([&] { return shadow_questions(scene, options.at); });
 
+  const std::optional<ShadowVolumes> volumes =
+      ask_volumes(session, options, scene, light);
+
   // 2. What they see, and what a camera sees.
   const BackprojectionIndex index(scene, light, request_of(session, options));
   AnsweredPoints<AnsweredPoint> all = ask(session, options, index, questions);
-  const bool asks_receivers = !options.receivers.empty() || !options.vtk.empty() ||
-                              (options.at.empty() && options.png.empty());
+  const bool asks_receivers = options.asks_receivers();
   Shadows shadows;
+  std::optional<ReceivingScene> receiving;
+  if (options.feature_size > 0)
+    receiving = without_small_blockers(session, options, file, scene, light);
+  const Scene& meshed = receiving ? receiving->scene : scene;
   if (asks_receivers) {
+    const LightSource& shining = receiving ? receiving->light : light;
     Request request = request_of(session, options);
     session.limit(request);
     shadows = shadows_in_time(
-        scene, light, receivers_of(scene, light, options.receivers, options.both_sides),
-        request);
+        meshed, shining,
+        receivers_of(meshed, shining, options.receivers, options.both_sides), request);
   }
   const bool complete = all.points.size() == questions.size() && shadows.complete();
   if (png != nullptr) write_picture(session, options, scene, index, light, *camera, *png);
@@ -182,7 +261,8 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
   // 3. The files; the answer comes last.
   if (!options.vtk.empty()) {
     session.write("VTK files", [&](const Request& request) {
-      write_vtk(options.vtk, scene, {.shadows = &shadows}, request);
+      write_vtk(options.vtk, meshed,
+                {.shadows = &shadows, .volumes = volumes ? &*volumes : nullptr}, request);
     });
   }
   if (csv != nullptr) {
@@ -201,11 +281,15 @@ ExitStatus run(Session& session, const ShadowOptions& options) {
     while (points.size() < questions.size()) points.push_back(nullptr);
   }
   if (asks_receivers) add_shadows(answer, shadows, options.list);
+  if (receiving) add_left_out(answer, scene, receiving->left_out);
+  if (volumes) answer["volumes"] = volumes_json(*volumes);
   outputs.write_answer(answer);
   if (options.may_print()) {
     std::cout << fmt::format("{}{}\n", options.scene, complete ? "" : ": INCOMPLETE");
     if (!options.at.empty()) print_points(all);
     if (asks_receivers) print_receivers(shadows);
+    if (receiving) std::cout << told(receiving->left_out);
+    if (volumes) std::cout << told(*volumes);
     std::cout << fmt::format("  {:.3f} s\n", session.seconds());
   }
   return session.end(complete);
@@ -219,6 +303,34 @@ void add_vector(CLI::App& command, const std::string& name, std::vector<double>&
       ->expected(3)
       ->check(finite_number())
       ->type_name("x,y,z");
+}
+
+void add_volume_options(CLI::App& command, ShadowOptions& options) {
+  CLI::Option* volumes = command.add_flag(
+      "--volumes", options.volumes,
+      "add \"volumes\", of one convex source and one convex solid as if they were alone: "
+      "umbra and penumbra in space, cut off at the scene's box, as polyhedra with their "
+      "volumes; --vtk writes their surfaces (receivers then only with --receivers)");
+  command
+      .add_option("--solid", options.solid,
+                  "the solid of --volumes: a closed convex group, or a flat one "
+                  "(default: the only closed one beside the source)")
+      ->type_name("GROUP")
+      ->needs(volumes);
+}
+
+/// The size below which blockers are left out of the receivers' scene.
+void add_feature_size(CLI::App& command, ShadowOptions& options) {
+  command
+      .add_option(
+          "--feature-size", options.feature_size,
+          "leave blockers out of the receivers' meshes: parts of groups whose box "
+          "has a shorter diagonal than this many scene units; \"left_out\" lists "
+          "them, \"form_factor_error_bound\" says how much more light a point of "
+          "the receivers gets at most; points and pictures stay exact (default 0: "
+          "none)")
+      ->type_name("L")
+      ->check(number_from_zero());
 }
 
 void add_picture_options(CLI::App& command, ShadowOptions& options) {
@@ -300,6 +412,8 @@ Command add_shadows_command(CLI::App& app) {
           "fraction, form factor; without --at with a line a receiver: areas and "
           "counts")
       ->type_name("FILE");
+  add_feature_size(*command, *options);
+  add_volume_options(*command, *options);
   add_picture_options(*command, *options);
   add_common_options(*command, *options);
   command->footer(

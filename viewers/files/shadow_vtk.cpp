@@ -114,6 +114,26 @@ void add_edge(Cells& cells, const ReceiverShadows& receiver, const ShadowMesh& m
   }
 }
 
+Cells surface_of(const ShadowVolume& volume, ShadowClass shadow) {
+  Cells cells;
+  std::vector<vtkIdType> ids;
+  for (const ExactPosition& v : volume.vertices)
+    ids.push_back(cells.add_point(v.nearest));
+  for (std::size_t i = 0; i < volume.sides.size(); ++i) {
+    const ShadowVolume::Side& side = volume.sides[i];
+    std::vector<vtkIdType> corners;
+    for (const int c : side.corners) corners.push_back(ids[c]);
+    cells.add_polygon(corners, colour_of(shadow));
+    cells.value("side", {static_cast<int>(i)});
+    cells.value("kind", std::string(name(side.kind)));
+    std::string generators;
+    for (const std::string& g : side.generators)
+      generators += (generators.empty() ? "" : "; ") + g;
+    cells.value("generators", generators);
+  }
+  return cells;
+}
+
 /// fill(cells, receiver, mesh) for all meshes.
 template <class Fill>
 Cells cells_of(const Shadows& shadows, Stage& stage, Fill&& fill) {
@@ -153,6 +173,12 @@ void add_shadow_blocks(std::map<std::string, Cells>& blocks, const Shadows& shad
           cells.value("vertex", {v});
         }
       }));
+}
+
+void add_volume_blocks(std::map<std::string, Cells>& blocks,
+                       const ShadowVolumes& volumes) {
+  blocks.emplace("shadow_umbra", surface_of(volumes.umbra(), ShadowClass::Umbra));
+  blocks.emplace("shadow_penumbra", surface_of(volumes.shadow(), ShadowClass::Penumbra));
 }
 
 }  // namespace sightline::viewers

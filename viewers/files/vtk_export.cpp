@@ -364,6 +364,8 @@ std::vector<std::string> write_vtk(const std::filesystem::path& folder,
   if (contents.shadows != nullptr) {
     write([&](Blocks& blocks) { add_shadow_blocks(blocks, *contents.shadows, stage); });
   }
+  if (contents.volumes != nullptr)
+    write([&](Blocks& blocks) { add_volume_blocks(blocks, *contents.volumes); });
   write_whole(folder / kVtkIndex, multi_block_text(names));
   std::vector<std::string> files;
   for (const std::string& name : names) files.push_back(name + ".vtp");
