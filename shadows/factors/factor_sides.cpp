@@ -121,6 +121,8 @@ bool leaves_at_once(const Scene& scene, const PointList& polygon) {
   return false;
 }
 
+}  // namespace
+
 double coincident_area(const Scene& scene) {
   std::vector<PointList> fronts;
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
@@ -141,8 +143,6 @@ double coincident_area(const Scene& scene) {
   }
   return sum;
 }
-
-}  // namespace
 
 PointList listed_polygon(const Scene& scene, int face, bool back) {
   PointList polygon;

@@ -52,6 +52,9 @@ struct FactorScene {
 [[nodiscard]] FactorScene factor_scene(const Scene& scene,
                                        std::span<const FormFactorSurface> surfaces);
 
+/// Of fronts that lie on one another, counted as often as once less than they are.
+[[nodiscard]] double coincident_area(const Scene& scene);
+
 /// The corners of a face, counter-clockwise as seen from the side on which the file lists
 /// it so, or from the other one.
 [[nodiscard]] PointList listed_polygon(const Scene& scene, int face, bool back);
