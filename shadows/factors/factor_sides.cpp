@@ -204,11 +204,17 @@ FactorScene factor_scene(const Scene& scene,
       result.leaving_normal[side.of] += area_of(side.polygon) * normal;
     }
   }
-  std::vector<PointList> faces;
+  std::vector<PointList> solid, thin;
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
-    faces.push_back(listed_polygon(scene, static_cast<int>(f), false));
+    const int face = static_cast<int>(f);
+    (scene.solid_behind(face) ? solid : thin)
+        .push_back(listed_polygon(scene, face, false));
   }
-  result.blockers = merged_convex(std::move(faces));
+  result.blockers = merged_convex(std::move(solid));
+  result.solid_blockers = result.blockers.size();
+  for (PointList& p : merged_convex(std::move(thin))) {
+    result.blockers.push_back(std::move(p));
+  }
   result.coincident_area = coincident_area(scene);
   return result;
 }

@@ -33,6 +33,8 @@ struct FactorScene {
   std::vector<FactorSide> sides;      ///< of the surfaces, in their order
   std::vector<FactorSide> elsewhere;  ///< fronts, backs and windows
   std::vector<PointList> blockers;
+  /// So many of the first ones have the material of a closed object behind them.
+  std::size_t solid_blockers = 0;
   double coincident_area = 0;
 
   /// What leaves at once into the half-space of a unit vector: an element with the normal

@@ -35,7 +35,7 @@ class Matrix {
       : accuracy_(request.accuracy / kMargin),
         up_(request.up),
         scene_(factor_scene(scene, surfaces)),
-        blockers_(scene, scene_.blockers) {
+        blockers_(scene, scene_.blockers, scene_.solid_blockers) {
     for (const FactorSide& s : scene_.sides) sides_.emplace_back(s);
     for (const FactorSide& s : scene_.elsewhere) elsewhere_.emplace_back(s);
     first_.assign(surfaces.size() + 1, 0);

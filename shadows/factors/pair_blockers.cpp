@@ -108,23 +108,27 @@ bool wholly_facing(const PreparedSide& a, const PreparedSide& b) {
   return all(a.plane, b.polygon) && all(b.plane, a.polygon);
 }
 
-PairBlockers::PairBlockers(const Scene& scene, std::vector<PointList> blockers)
-    : blockers_(std::move(blockers)), tree_(boxes_of(blockers_), 1), solid_tree_({}) {
+PairBlockers::PairBlockers(const Scene& scene, std::vector<PointList> blockers,
+                           std::size_t solid)
+    : blockers_(std::move(blockers)),
+      solid_faces_(solid),
+      tree_(boxes_of(blockers_), 1),
+      solid_tree_({}) {
   for (const PointList& p : blockers_) planes_.push_back(plane_of(p));
   std::vector<Box> boxes;
   for (const Object& object : scene.objects()) {
     if (!object.convex || object.inside_out) continue;
-    Solid solid;
-    solid.box = box_of(listed_polygon(scene, object.faces[0], false));
+    Solid body;
+    body.box = box_of(listed_polygon(scene, object.faces[0], false));
     for (const int f : object.faces) {
       const PointList p = listed_polygon(scene, f, false);
-      solid.box = joined(solid.box, box_of(p));
+      body.box = joined(body.box, box_of(p));
       const auto c = spanning_corners(p);
       const Eigen::Vector3d n = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
-      solid.planes.emplace_back(n.x(), n.y(), n.z(), -n.dot(c[0]));
+      body.planes.emplace_back(n.x(), n.y(), n.z(), -n.dot(c[0]));
     }
-    boxes.push_back(solid.box);
-    solids_.push_back(std::move(solid));
+    boxes.push_back(body.box);
+    solids_.push_back(std::move(body));
   }
   solid_tree_ = Bvh(boxes, 1);
   const auto& [low, high] = scene.bounds();
@@ -155,6 +159,15 @@ void PairBlockers::between(const PreparedSide& a, const PreparedSide& b,
     });
   });
   std::ranges::sort(found);
+}
+
+// A line that leaves an object through the face comes from behind it.  It began outside
+// the object, so that it has come in through another face, and began before that one.
+void PairBlockers::leave_out_exits(const PreparedSide& a, std::vector<int>& found) const {
+  std::erase_if(found, [&](int i) {
+    return static_cast<std::size_t>(i) < solid_faces_ &&
+           !any_before(planes_[i], a.polygon);
+  });
 }
 
 // A convex set that meets every segment between corners of two convex sets meets all

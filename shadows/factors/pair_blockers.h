@@ -32,13 +32,18 @@ struct PreparedSide {
 /// Immutable; may be shared between threads.
 class PairBlockers {
  public:
-  PairBlockers(const Scene& scene, std::vector<PointList> blockers);
+  /// The first `solid` blockers have the material of a closed object behind them.
+  PairBlockers(const Scene& scene, std::vector<PointList> blockers, std::size_t solid);
 
   [[nodiscard]] const PointList& polygon(int blocker) const { return blockers_[blocker]; }
   /// All blockers that have a point strictly between the two, and perhaps a few more.
   /// Those in the plane of either, or behind it, are left out.  Ascending.
   void between(const PreparedSide& a, const PreparedSide& b,
                std::vector<int>& found) const;
+  /// Without the blockers through which a line from side a can only leave a closed
+  /// object: it has come in through another one.  Requires that side a lies in no
+  /// material.
+  void leave_out_exits(const PreparedSide& a, std::vector<int>& found) const;
   /// One of these blockers, or a convex solid, meets every segment between the two.  True
   /// is a proof.
   [[nodiscard]] bool hidden_by_one(const PreparedSide& a, const PreparedSide& b,
@@ -56,6 +61,7 @@ class PairBlockers {
   [[nodiscard]] bool hides(int blocker, const PointList& a, const PointList& b) const;
 
   std::vector<PointList> blockers_;
+  std::size_t solid_faces_;
   std::vector<PlaneSide> planes_;
   std::vector<Solid> solids_;
   double margin_;  // scene units

@@ -46,7 +46,9 @@ ExchangeArea PairFactor::of(const PreparedSide& a, const PreparedSide& b,
     return result;
   }
   if (blockers_.hidden_by_one(a, b, between_)) return {};
-  for (const int i : between_) polygons_.push_back(blockers_.polygon(i));
+  entered_ = between_;
+  blockers_.leave_out_exits(a, entered_);
+  for (const int i : entered_) polygons_.push_back(blockers_.polygon(i));
   ++counts_.partial;
   ExchangeArea result = exchange_area(a.polygon, b.polygon, polygons_, tolerance);
   counts_.evaluations += result.evaluations;
@@ -60,6 +62,7 @@ ExchangeArea PairFactor::rising(const PreparedSide& a, const PreparedSide& b,
                                 const Eigen::Vector3d& up, double tolerance) {
   blockers_.between(a, b, between_);
   if (blockers_.hidden_by_one(a, b, between_)) return {};
+  blockers_.leave_out_exits(a, between_);
   polygons_.clear();
   for (const int i : between_) polygons_.push_back(blockers_.polygon(i));
   return exchange_area(a.polygon, b.polygon, polygons_, tolerance, up);

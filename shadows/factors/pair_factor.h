@@ -32,6 +32,7 @@ class PairFactor {
 
   const PairBlockers& blockers_;
   std::vector<int> between_;
+  std::vector<int> entered_;  // of these, those through which lines may come in
   std::vector<std::span<const Point>> polygons_;
   PairCounts counts_;
 };
