@@ -19,6 +19,8 @@ struct FactorSide {
   PointList polygon;
   /// A surface's number, or one of the below.
   int of;
+  /// To which all of the surface belongs; -1 where there is no such one.
+  int object = -1;
 };
 
 /// What a direction meets first, where it meets no surface.
@@ -35,6 +37,8 @@ struct FactorScene {
   std::vector<PointList> blockers;
   /// So many of the first ones have the material of a closed object behind them.
   std::size_t solid_blockers = 0;
+  /// The convex closed object to which the blocker belongs, or -1.
+  std::vector<int> blocker_object;
   double coincident_area = 0;
 
   /// What leaves at once into the half-space of a unit vector: an element with the normal
