@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "linespace/predicates.h"
+#include "shadows/factors/separating_planes.h"
 
 namespace sightline::internal {
 namespace {
@@ -195,7 +196,9 @@ std::optional<Attachment> attachment(const ContourPiece& line, const Plate& plat
 class PieceMaker {
  public:
   explicit PieceMaker(ExchangeGeometry& geometry)
-      : g_(geometry), target_(static_cast<int>(geometry.blockers.size())) {}
+      : g_(geometry), target_(static_cast<int>(geometry.blockers.size())) {
+    for (const FlatPoint& p : g_.sender) sender_.emplace_back(p.x, p.y, 0);
+  }
 
   void make() {
     for (int p = 0; p <= target_; ++p) {
@@ -273,6 +276,7 @@ class PieceMaker {
     }
     if (!piece.shows_positive && !piece.shows_negative) return;
     if (!may_contribute(piece)) return;
+    leave_out_beside(piece);
     find_breaks(piece);
     g_.pieces.push_back(std::move(piece));
   }
@@ -299,6 +303,16 @@ class PieceMaker {
     }
     return false;
   }
+  /// Blockers that no line from sender to target meets that passes the piece.
+  void leave_out_beside(ContourPiece& piece) const {
+    const Vector end = piece.start + piece.length * piece.direction;
+    const SeparatingPlanes below(piece.start, end, sender_);
+    const SeparatingPlanes beyond(piece.start, end, g_.target.corners);
+    std::erase_if(piece.shading, [&](int b) {
+      const std::vector<Vector>& corners = g_.blockers[b].corners;
+      return below.beside(corners) && (piece.on_target || beyond.beside(corners));
+    });
+  }
   void find_breaks(ContourPiece& piece) const {
     const Vector end = piece.start + piece.length * piece.direction;
     for (const int b : piece.shading) {
@@ -322,6 +336,7 @@ class PieceMaker {
 
   ExchangeGeometry& g_;
   const int target_;
+  std::vector<Vector> sender_;
   std::vector<Attachment> attached_;
   bool on_ground_ = false;
 };

@@ -21,6 +21,14 @@ std::vector<PointList> polygons_of(const Scene& scene, const FormFactorSurface& 
   return polygons;
 }
 
+/// To which all faces of the surface belong, or -1.
+int object_of(const Scene& scene, const FormFactorSurface& surface) {
+  const int object = scene.faces()[surface.faces.front()].object;
+  const bool all = std::ranges::all_of(
+      surface.faces, [&](int f) { return scene.faces()[f].object == object; });
+  return all ? object : -1;
+}
+
 /// Adds the sides of the surfaces; of buried parts the area alone.
 void add_surfaces(const Scene& scene, std::span<const FormFactorSurface> surfaces,
                   const ExposedParts& exposed, FactorScene& result) {
@@ -29,10 +37,11 @@ void add_surfaces(const Scene& scene, std::span<const FormFactorSurface> surface
     const std::vector<PointList> polygons = polygons_of(scene, surfaces[i]);
     for (const PointList& p : polygons) area += area_of(p);
     bool buried = false;
+    const int object = object_of(scene, surfaces[i]);
     for (PointList& p : merged_convex(polygons)) {
       for (PointList& part : exposed.of(p, buried)) {
         seen += area_of(part);
-        result.sides.push_back({std::move(part), static_cast<int>(i)});
+        result.sides.push_back({std::move(part), static_cast<int>(i), object});
       }
     }
     result.areas.push_back(area);
@@ -121,6 +130,33 @@ bool leaves_at_once(const Scene& scene, const PointList& polygon) {
   return false;
 }
 
+/// Convex objects one by one, then what else has material behind it, then the rest.
+void add_blockers(const Scene& scene, FactorScene& result) {
+  std::vector<PointList> solid, thin;
+  const auto add = [&](std::vector<PointList> polygons, int object) {
+    for (PointList& p : merged_convex(std::move(polygons))) {
+      result.blockers.push_back(std::move(p));
+      result.blocker_object.push_back(object);
+    }
+  };
+  for (std::size_t o = 0; o < scene.objects().size(); ++o) {
+    const Object& object = scene.objects()[o];
+    std::vector<PointList> own;
+    for (const int f : object.faces) {
+      auto& list = !scene.solid_behind(f)                ? thin
+                   : object.convex && !object.inside_out ? own
+                                                         : solid;
+      list.push_back(listed_polygon(scene, f, false));
+    }
+    add(std::move(own), static_cast<int>(o));
+  }
+  add(std::move(solid), -1);
+  result.solid_blockers = result.blockers.size();
+  add(std::move(thin), -1);
+}
+
+}  // namespace
+
 double coincident_area(const Scene& scene) {
   std::vector<PointList> fronts;
   for (std::size_t f = 0; f < scene.faces().size(); ++f) {
@@ -141,8 +177,6 @@ double coincident_area(const Scene& scene) {
   }
   return sum;
 }
-
-}  // namespace
 
 PointList listed_polygon(const Scene& scene, int face, bool back) {
   PointList polygon;
@@ -204,11 +238,7 @@ FactorScene factor_scene(const Scene& scene,
       result.leaving_normal[side.of] += area_of(side.polygon) * normal;
     }
   }
-  std::vector<PointList> faces;
-  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
-    faces.push_back(listed_polygon(scene, static_cast<int>(f), false));
-  }
-  result.blockers = merged_convex(std::move(faces));
+  add_blockers(scene, result);
   result.coincident_area = coincident_area(scene);
   return result;
 }

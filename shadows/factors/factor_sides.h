@@ -19,6 +19,8 @@ struct FactorSide {
   PointList polygon;
   /// A surface's number, or one of the below.
   int of;
+  /// To which all of the surface belongs; -1 where there is no such one.
+  int object = -1;
 };
 
 /// What a direction meets first, where it meets no surface.
@@ -33,6 +35,10 @@ struct FactorScene {
   std::vector<FactorSide> sides;      ///< of the surfaces, in their order
   std::vector<FactorSide> elsewhere;  ///< fronts, backs and windows
   std::vector<PointList> blockers;
+  /// So many of the first ones have the material of a closed object behind them.
+  std::size_t solid_blockers = 0;
+  /// The convex closed object to which the blocker belongs, or -1.
+  std::vector<int> blocker_object;
   double coincident_area = 0;
 
   /// What leaves at once into the half-space of a unit vector: an element with the normal
@@ -51,6 +57,9 @@ struct FactorScene {
 
 [[nodiscard]] FactorScene factor_scene(const Scene& scene,
                                        std::span<const FormFactorSurface> surfaces);
+
+/// Of fronts that lie on one another, counted as often as once less than they are.
+[[nodiscard]] double coincident_area(const Scene& scene);
 
 /// The corners of a face, counter-clockwise as seen from the side on which the file lists
 /// it so, or from the other one.

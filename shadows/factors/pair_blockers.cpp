@@ -22,14 +22,6 @@ std::vector<Box> boxes_of(const std::vector<PointList>& polygons) {
   return boxes;
 }
 
-Box joined(Box a, const Box& b) {
-  for (int i = 0; i < 3; ++i) {
-    a.min[i] = std::min(a.min[i], b.min[i]);
-    a.max[i] = std::max(a.max[i], b.max[i]);
-  }
-  return a;
-}
-
 bool any_before(const PlaneSide& plane, const PointList& points) {
   return std::ranges::any_of(points,
                              [&](const Point& p) { return plane(p) == Sign::Positive; });
@@ -62,7 +54,8 @@ void add_supporting_planes(const PointList& a, const PointList& b,
   }
 }
 
-/// Both halves of a polygon, cut across its longest side's direction.
+}  // namespace
+
 std::array<PointList, 2> halves(const PointList& polygon) {
   Point low = polygon[0], high = polygon[0];
   for (const Point& p : polygon) {
@@ -87,14 +80,22 @@ std::array<PointList, 2> halves(const PointList& polygon) {
   return parts;
 }
 
-}  // namespace
-
 PreparedSide::PreparedSide(const FactorSide& side)
     : polygon(side.polygon),
       of(side.of),
+      object(side.object),
       area(area_of(side.polygon)),
       box(box_of(side.polygon)),
       plane(plane_of(side.polygon)) {}
+
+// The plane stays that of the side, so that nothing is rounded but corners at the cut.
+PreparedSide part_of(const PreparedSide& side, PointList polygon) {
+  PreparedSide part = side;
+  part.area = area_of(polygon);
+  part.box = box_of(polygon);
+  part.polygon = std::move(polygon);
+  return part;
+}
 
 bool facing(const PreparedSide& a, const PreparedSide& b) {
   return any_before(a.plane, b.polygon) && any_before(b.plane, a.polygon);
@@ -108,36 +109,27 @@ bool wholly_facing(const PreparedSide& a, const PreparedSide& b) {
   return all(a.plane, b.polygon) && all(b.plane, a.polygon);
 }
 
-PairBlockers::PairBlockers(const Scene& scene, std::vector<PointList> blockers)
-    : blockers_(std::move(blockers)), tree_(boxes_of(blockers_), 1), solid_tree_({}) {
+PairBlockers::PairBlockers(const Scene& scene, const FactorScene& factors)
+    : blockers_(factors.blockers),
+      solid_faces_(factors.solid_blockers),
+      solids_(scene),
+      tree_(boxes_of(blockers_), 1) {
   for (const PointList& p : blockers_) planes_.push_back(plane_of(p));
-  std::vector<Box> boxes;
-  for (const Object& object : scene.objects()) {
-    if (!object.convex || object.inside_out) continue;
-    Solid solid;
-    solid.box = box_of(listed_polygon(scene, object.faces[0], false));
-    for (const int f : object.faces) {
-      const PointList p = listed_polygon(scene, f, false);
-      solid.box = joined(solid.box, box_of(p));
-      const auto c = spanning_corners(p);
-      const Eigen::Vector3d n = (c[1] - c[0]).cross(c[2] - c[0]).normalized();
-      solid.planes.emplace_back(n.x(), n.y(), n.z(), -n.dot(c[0]));
-    }
-    boxes.push_back(solid.box);
-    solids_.push_back(std::move(solid));
+  for (const int object : factors.blocker_object) {
+    solid_of_.push_back(object < 0 ? -1 : solids_.of_object(object));
   }
-  solid_tree_ = Bvh(boxes, 1);
-  const auto& [low, high] = scene.bounds();
-  margin_ = 1e-12 * (low.cwiseAbs().cwiseMax(high.cwiseAbs())).maxCoeff();
 }
 
 void PairBlockers::between(const PreparedSide& a, const PreparedSide& b,
+                           const std::vector<char>* hidden,
                            std::vector<int>& found) const {
   found.clear();
   const Shaft shaft(a.box, b.box);
   tree_.traverse(
       [&](const Box& box) { return shaft.may_meet(box); },
       [&](std::uint32_t i) {
+        if (hidden != nullptr && solid_of_[i] >= 0 && (*hidden)[solid_of_[i]] != 0)
+          return;
         if (any_before(a.plane, blockers_[i]) && any_before(b.plane, blockers_[i])) {
           found.push_back(static_cast<int>(i));
         }
@@ -155,6 +147,15 @@ void PairBlockers::between(const PreparedSide& a, const PreparedSide& b,
     });
   });
   std::ranges::sort(found);
+}
+
+// A line that leaves an object through the face comes from behind it.  It began outside
+// the object, so that it has come in through another face, and began before that one.
+void PairBlockers::leave_out_exits(const PreparedSide& a, std::vector<int>& found) const {
+  std::erase_if(found, [&](int i) {
+    return static_cast<std::size_t>(i) < solid_faces_ &&
+           !any_before(planes_[i], a.polygon);
+  });
 }
 
 // A convex set that meets every segment between corners of two convex sets meets all
@@ -184,28 +185,12 @@ bool PairBlockers::hides(int blocker, const PointList& a, const PointList& b) co
 }
 
 bool PairBlockers::hidden_by_solid(const PointList& a, const PointList& b) const {
-  const auto meets = [&](const Solid& solid, const Point& x, const Point& y) {
-    double from = 0, to = 1;
-    for (const Eigen::Vector4d& plane : solid.planes) {
-      const double hx = plane.head<3>().dot(x) + plane[3] + margin_;
-      const double hy = plane.head<3>().dot(y) + plane[3] + margin_;
-      if (hx >= 0 && hy >= 0) return false;
-      if (hx > 0) from = std::max(from, hx / (hx - hy));
-      if (hy > 0) to = std::min(to, hx / (hx - hy));
-    }
-    return to - from > 1e-12;
-  };
-  const Box box_a = box_of(a), box_b = box_of(b);
   bool hidden = false;
-  const Shaft shaft(box_a, box_b);
-  solid_tree_.traverse([&](const Box& box) { return !hidden && shaft.may_meet(box); },
-                       [&](std::uint32_t i) {
-                         hidden = hidden || std::ranges::all_of(a, [&](const Point& x) {
-                                    return std::ranges::all_of(b, [&](const Point& y) {
-                                      return meets(solids_[i], x, y);
-                                    });
-                                  });
-                       });
+  const Shaft shaft(box_of(a), box_of(b));
+  solids_.tree().traverse([&](const Box& box) { return !hidden && shaft.may_meet(box); },
+                          [&](std::uint32_t i) {
+                            hidden = hidden || solids_.hides(static_cast<int>(i), a, b);
+                          });
   return hidden;
 }
 
@@ -217,7 +202,7 @@ bool PairBlockers::hidden_by_one(const PreparedSide& a, const PreparedSide& b,
 bool PairBlockers::hidden_by_parts(const PointList& a, const PointList& b,
                                    std::span<const int> among, int cuts) const {
   if (std::ranges::any_of(among, [&](int i) { return hides(i, a, b); })) return true;
-  if (!solids_.empty() && hidden_by_solid(a, b)) return true;
+  if (solids_.size() > 0 && hidden_by_solid(a, b)) return true;
   if (cuts == 0) return false;
   // The larger one is cut, which leaves the other as a whole to be hidden.
   const bool first = area_of(a) >= area_of(b);

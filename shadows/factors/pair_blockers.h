@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "linespace/scene.h"
 #include "linespace/space/bvh.h"
 #include "shadows/factors/factor_sides.h"
+#include "shadows/hiding/convex_solids.h"
 
 namespace sightline::internal {
 
@@ -19,6 +21,7 @@ struct PreparedSide {
 
   PointList polygon;
   int of;
+  int object;  ///< as of FactorSide
   double area;
   Box box;
   PlaneSide plane;
@@ -32,13 +35,19 @@ struct PreparedSide {
 /// Immutable; may be shared between threads.
 class PairBlockers {
  public:
-  PairBlockers(const Scene& scene, std::vector<PointList> blockers);
+  PairBlockers(const Scene& scene, const FactorScene& factors);
+  [[nodiscard]] const ConvexSolids& solids() const { return solids_; }
 
   [[nodiscard]] const PointList& polygon(int blocker) const { return blockers_[blocker]; }
   /// All blockers that have a point strictly between the two, and perhaps a few more.
-  /// Those in the plane of either, or behind it, are left out.  Ascending.
+  /// Those in the plane of either, or behind it, are left out, and those of solids that
+  /// are hidden from a: null, or for each solid whether it is.  Ascending.
   void between(const PreparedSide& a, const PreparedSide& b,
-               std::vector<int>& found) const;
+               const std::vector<char>* hidden, std::vector<int>& found) const;
+  /// Without the blockers through which a line from side a can only leave a closed
+  /// object: it has come in through another one.  Requires that side a lies in no
+  /// material.
+  void leave_out_exits(const PreparedSide& a, std::vector<int>& found) const;
   /// One of these blockers, or a convex solid, meets every segment between the two.  True
   /// is a proof.
   [[nodiscard]] bool hidden_by_one(const PreparedSide& a, const PreparedSide& b,
@@ -48,18 +57,21 @@ class PairBlockers {
                                      std::span<const int> among, int cuts) const;
 
  private:
-  struct Solid {
-    Box box;
-    std::vector<Eigen::Vector4d> planes;  // unit normals; above 0 outside
-  };
   [[nodiscard]] bool hidden_by_solid(const PointList& a, const PointList& b) const;
   [[nodiscard]] bool hides(int blocker, const PointList& a, const PointList& b) const;
 
   std::vector<PointList> blockers_;
+  std::size_t solid_faces_;
   std::vector<PlaneSide> planes_;
-  std::vector<Solid> solids_;
-  double margin_;  // scene units
-  Bvh tree_, solid_tree_;
+  std::vector<int> solid_of_;  // of each blocker; -1: none
+  ConvexSolids solids_;
+  Bvh tree_;
 };
+
+/// The part of a side within a polygon of its plane.
+[[nodiscard]] PreparedSide part_of(const PreparedSide& side, PointList polygon);
+/// Both halves of a convex polygon, cut across the coordinate axis along which it is
+/// longest.  Corners at the cut are rounded.
+[[nodiscard]] std::array<PointList, 2> halves(const PointList& polygon);
 
 }  // namespace sightline::internal

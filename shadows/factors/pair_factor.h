@@ -6,6 +6,7 @@
 
 #include "shadows/factors/exchange_area.h"
 #include "shadows/factors/pair_blockers.h"
+#include "shadows/hiding/sender_parts.h"
 
 namespace sightline::internal {
 
@@ -20,14 +21,22 @@ class PairFactor {
 
   /// Of two sides that face each other.  0 iff nothing of one sees anything of the other,
   /// decided exactly where all of both lies before the other's plane.
-  [[nodiscard]] ExchangeArea of(const PreparedSide& a, const PreparedSide& b,
+  [[nodiscard]] ExchangeArea of(const SenderPart& from, const PreparedSide& b,
                                 double tolerance);
   /// Of what a sends to b, the part that rises along `up`.
-  [[nodiscard]] ExchangeArea rising(const PreparedSide& a, const PreparedSide& b,
+  [[nodiscard]] ExchangeArea rising(const SenderPart& from, const PreparedSide& b,
                                     const Eigen::Vector3d& up, double tolerance);
   [[nodiscard]] const PairCounts& counts() const { return counts_; }
 
  private:
+  /// How often a pair may be cut in two where a crowd stands between.
+  static constexpr int kMostCuts = 12;
+
+  /// Of a pair that is partly hidden by between_, which is changed.  In a crowd of
+  /// blockers, the sum over halves of the larger one.
+  ExchangeArea among_blockers(const PreparedSide& a, const PreparedSide& b,
+                              const std::vector<char>& hidden, double tolerance,
+                              int cuts);
   void decide(const PreparedSide& a, const PreparedSide& b, ExchangeArea& sum);
 
   const PairBlockers& blockers_;

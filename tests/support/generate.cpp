@@ -25,6 +25,8 @@ constexpr const char* kUsage =
     "                                   the same; bottoms at Z (default 0, on the "
     "slab),\n"
     "                                   every quad cut into two triangles\n"
+    "  enclosure [--squares N]          a room of N x N squares a wall (default 10) "
+    "with K boxes\n"
     "  polytopes [--vertices V] [--density D], parallelepipeds,\n"
     "  boxes, grid-boxes, rotated-boxes K solids (default 10)\n"
     "  visible:slab [--size S],\n"
@@ -34,7 +36,9 @@ constexpr const char* kUsage =
     "  touching:NAME                    boxes that touch, NAME one of:\n";
 
 sightline::PolygonSoup generate(const std::string& kind, std::uint64_t seed, int polygons,
-                                int count, int vertices, double density, double bottom) {
+                                int count, int vertices, double density, double bottom,
+                                int squares) {
+  if (kind == "enclosure") return enclosure(seed, squares, count);
   if (kind == "city") return city(seed, polygons);
   if (kind == "grid-city") return grid_city(seed, polygons);
   if (kind == "touching-city") return grid_city(seed, polygons, {.may_touch = true});
@@ -86,7 +90,8 @@ int main(int argc, char** argv) {
   std::map<std::string, std::string> options = {
       {"--polygons", "1000"}, {"--count", "10"},    {"--seed", "1"},
       {"--vertices", "8"},    {"--density", "0.1"}, {"--occluders", "10"},
-      {"--size", "0.25"},     {"--bottom", "0"},    {"--triangles", "no"}};
+      {"--size", "0.25"},     {"--bottom", "0"},    {"--triangles", "no"},
+      {"--squares", "10"}};
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     if (argument == "-o" && i + 1 < argc) {
@@ -117,7 +122,7 @@ int main(int argc, char** argv) {
       const sightline::PolygonSoup soup =
           generate(kind, seed, std::stoi(options["--polygons"]), count,
                    std::stoi(options["--vertices"]), std::stod(options["--density"]),
-                   std::stod(options["--bottom"]));
+                   std::stod(options["--bottom"]), std::stoi(options["--squares"]));
       write_obj(output,
                 options["--triangles"] == "yes" ? cut_into_triangles(soup) : soup);
     }

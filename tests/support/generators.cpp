@@ -644,6 +644,72 @@ PolygonSoup lit_city(int polygon_count, bool square) {
   return soup;
 }
 
+namespace {
+
+/// Appends the sides of a box as a group of 6 n^2 rectangles.
+void add_cut_box(PolygonSoup& soup, const std::string& name, const AlignedBox& box, int n,
+                 bool inwards) {
+  PolygonSoup::Group group{name, {}};
+  const auto at = [&](int axis, int step) {
+    if (step == n) return box.max[axis];
+    return box.min[axis] + (box.max[axis] - box.min[axis]) * step / n;
+  };
+  for (int side = 0; side < 6; ++side) {
+    const int axis = side / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
+    const bool upper = side % 2 == 1;
+    for (int cell = 0; cell < n * n; ++cell) {
+      std::vector<int> polygon;
+      for (const auto& [i, j] : {std::pair(0, 0), {1, 0}, {1, 1}, {0, 1}}) {
+        Point p;
+        p[axis] = upper ? box.max[axis] : box.min[axis];
+        p[u] = at(u, cell % n + i);
+        p[v] = at(v, cell / n + j);
+        polygon.push_back(static_cast<int>(soup.vertices.size()));
+        soup.vertices.push_back(p);
+      }
+      if (upper == inwards) std::ranges::reverse(polygon);
+      group.faces.push_back(static_cast<int>(soup.polygons.size()));
+      soup.polygons.push_back(polygon);
+    }
+  }
+  soup.groups.push_back(std::move(group));
+}
+
+}  // namespace
+
+PolygonSoup enclosure(std::uint64_t seed, int squares, int count) {
+  Random random(seed);
+  std::vector<AlignedBox> boxes;
+  for (int tries = 0; static_cast<int>(boxes.size()) < count; ++tries) {
+    if (tries > 10000 * count) throw std::runtime_error("enclosure: no room");
+    AlignedBox box;
+    for (int i = 0; i < 3; ++i) {
+      const double size = random.uniform(0.1, 0.3);
+      box.min[i] = random.uniform(0.02, 0.98 - size);
+      box.max[i] = box.min[i] + size;
+    }
+    if (random.integer(0, 1) == 1) {
+      const int axis = random.integer(0, 2);
+      const double size = box.max[axis] - box.min[axis];
+      const bool upper = random.integer(0, 1) == 1;
+      box.min[axis] = upper ? 1 - size : 0;
+      box.max[axis] = upper ? 1 : size;
+    }
+    if (std::ranges::all_of(
+            boxes, [&](const AlignedBox& other) { return apart(box, other, false); })) {
+      boxes.push_back(box);
+    }
+  }
+  PolygonSoup soup;
+  soup.source = "enclosure of seed " + std::to_string(seed);
+  add_cut_box(soup, "room", {{0, 0, 0}, {1, 1, 1}}, squares, true);
+  for (int i = 0; i < count; ++i) {
+    add_cut_box(soup, "box" + std::to_string(i), boxes[i], std::max(1, squares / 10),
+                false);
+  }
+  return soup;
+}
+
 PolygonSoup triangle_soup(std::uint64_t seed, int count) {
   Random random(seed);
   const auto point = [&](double size) {

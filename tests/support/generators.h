@@ -155,6 +155,12 @@ struct StreetCityOptions {
 /// roof.
 [[nodiscard]] PolygonSoup lit_city(int polygon_count, bool square);
 
+/// A unit cube seen from within, each wall squares x squares squares, with `count`
+/// disjoint boxes of sides 0.1 to 0.3, about half of them standing on a wall, with a
+/// tenth of the squares along each side: 648, 2,592, 10,368 polygons for 10, 20, 40
+/// squares, 8 boxes. Groups: room, box0, box1, ...
+[[nodiscard]] PolygonSoup enclosure(std::uint64_t seed, int squares, int count);
+
 /// `count` triangles scattered in the cube [-1, 1]^3, which intersect at will; about as
 /// many are met by a line whatever the count.  No groups.
 [[nodiscard]] PolygonSoup triangle_soup(std::uint64_t seed, int count);

@@ -113,6 +113,37 @@ TEST_F(CliFormFactors, ABudgetThatEnds) {
   }
 }
 
+TEST_F(CliFormFactors, ByLines) {
+  const json j = answer(squares() + " --lines 200000 --seed 3 --up 0,0,1 --csv " +
+                        file("l.csv") + " --npz " + file("l.npz"));
+  EXPECT_EQ(j.at("method"), "lines");
+  EXPECT_EQ(j.at("lines"), 200000);
+  EXPECT_EQ(j.at("seed"), 3);
+  EXPECT_FALSE(j.contains("error_bound"));
+  const double error = j.at("standard_errors").at("matrix")[0][1];
+  EXPECT_GT(error, 1e-4);
+  EXPECT_LT(error, 3e-3);
+  EXPECT_NEAR(j.at("matrix")[0][1], 0.099506294598985, 5 * error);
+  EXPECT_EQ(j.at("sky")[0], j.at("outside")[0]);
+  EXPECT_EQ(j.at("sky")[1], 0);
+  EXPECT_GT(j.at("standard_errors").at("sky")[0], 0);
+  EXPECT_TRUE(
+      contents(file("l.csv")).starts_with("from,to,factor,standard_error\nfloor,"));
+  EXPECT_NE(contents(file("l.npz")).find("standard_errors.npy"), std::string::npos);
+  ASSERT_EQ(run(squares() + " --lines 1000"), 0) << err();
+  EXPECT_NE(out().find("estimated by 1000 lines"), std::string::npos) << out();
+}
+
+TEST_F(CliFormFactors, RefusesLinesWithWhatIsBounded) {
+  const std::string points = file("p.txt", "0.5,0.5,0,0,0,1\n");
+  for (const std::string& with :
+       {std::string("--accuracy 1e-6"), std::string("--enforce"), "--at " + points}) {
+    expect_refused(squares() + " --lines 100 " + with, "--lines");
+  }
+  expect_refused(squares() + " --lines 1", "--lines");
+  expect_refused(squares() + " --seed 1", "--seed");
+}
+
 TEST_F(CliFormFactors, RefusesWhatCannotBe) {
   expect_refused(squares() + " --groups flor", "flor");
   expect_refused(squares() + " --accuracy 0", "--accuracy");
@@ -127,8 +158,9 @@ TEST_F(CliFormFactors, RefusesWhatCannotBe) {
 
 TEST_F(CliFormFactors, HelpTeaches) {
   ASSERT_EQ(run("--help"), 0);
-  for (const char* word : {"--groups", "--accuracy", "--both-sides", "--enforce", "--npz",
-                           "sky view factor", "docs/form_factors.md", "Examples:"}) {
+  for (const char* word :
+       {"--groups", "--accuracy", "--both-sides", "--enforce", "--npz", "--lines",
+        "sky view factor", "docs/form_factors.md", "Examples:"}) {
     EXPECT_NE(out().find(word), std::string::npos) << word;
   }
 }

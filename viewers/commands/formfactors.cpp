@@ -21,7 +21,9 @@ struct FactorOptions : CommonOptions {
   SurfaceWish wish;
   std::string each = "group";
   std::vector<std::string> without;
-  double accuracy = 1e-10;
+  std::optional<double> asked_accuracy;
+  std::optional<std::int64_t> lines;
+  std::optional<std::uint64_t> seed;
   std::string at, csv, npz;
   std::vector<double> up;
   bool enforce = false;
@@ -29,6 +31,7 @@ struct FactorOptions : CommonOptions {
   [[nodiscard]] bool may_print() const {
     return CommonOptions::may_print() && csv != "-";
   }
+  [[nodiscard]] double accuracy() const { return asked_accuracy.value_or(1e-10); }
   [[nodiscard]] std::optional<Eigen::Vector3d> up_vector() const {
     if (up.empty()) return std::nullopt;
     return Eigen::Vector3d(up[0], up[1], up[2]);
@@ -49,17 +52,33 @@ void check(const FactorOptions& options) {
     throw UsageError(fmt::format("{}: is for a matrix, and --at asks points",
                                  options.npz.empty() ? "--enforce" : "--npz"));
   }
+  if (options.seed && !options.lines) throw UsageError("--seed: is for --lines");
+  if (options.lines &&
+      (!options.at.empty() || options.asked_accuracy || options.enforce)) {
+    throw UsageError(fmt::format("--lines: estimates a matrix, and {}",
+                                 !options.at.empty() ? "--at asks points"
+                                 : options.asked_accuracy
+                                     ? "--accuracy is for what is bounded"
+                                     : "--enforce is for what is bounded"));
+  }
   if (options.npz == "-") throw UsageError("--npz: needs the name of a file");
 }
 
-FormFactorRequest request_of(Session& session, const FactorOptions& options) {
-  FormFactorRequest request;
+/// What every request of this command has.
+template <class AnyRequest>
+AnyRequest common_request(Session& session, const FactorOptions& options) {
+  AnyRequest request;
   static_cast<Request&>(request) = session.with_grace();
   session.limit(request);
   request.precision = options.precision;
   request.threads = options.threads;
-  request.accuracy = options.accuracy;
   request.up = options.up_vector();
+  return request;
+}
+
+FormFactorRequest request_of(Session& session, const FactorOptions& options) {
+  auto request = common_request<FormFactorRequest>(session, options);
+  request.accuracy = options.accuracy();
   return request;
 }
 
@@ -67,12 +86,14 @@ std::string share(double value) { return fmt::format("{:.10g}", value); }
 
 // ---- the matrix -----------------------------------------------------------------------
 
-void print_rows(const FactorOptions& options, const FormFactors& f, double seconds) {
+/// bound: what is known of errors, in words.
+void print_rows(const FactorOptions& options, const FormFactors& f,
+                const std::string& bound, double seconds) {
   constexpr std::size_t kShown = 12;
   std::size_t entries = 0;
   for (const FormFactorRow& row : f.rows) entries += row.to.size();
-  std::cout << fmt::format("{}: {} surfaces, {} factors above 0, each within {:.1e}{}\n",
-                           options.scene, f.names.size(), entries, f.error_bound,
+  std::cout << fmt::format("{}: {} surfaces, {} factors above 0, {}{}\n", options.scene,
+                           f.names.size(), entries, bound,
                            f.complete ? "" : ", INCOMPLETE");
   for (std::size_t i = 0; i < std::min(kShown, f.rows.size()); ++i) {
     const FormFactorRow& row = f.rows[i];
@@ -97,30 +118,61 @@ void print_rows(const FactorOptions& options, const FormFactors& f, double secon
   std::cout << fmt::format("  {:.3f} s\n", seconds);
 }
 
-ExitStatus answer_matrix(Session& session, const FactorOptions& options,
-                         const Scene& scene,
-                         const std::vector<FormFactorSurface>& surfaces, Run& run) {
-  const Meter meter;
-  const FormFactors factors = form_factors(scene, surfaces, request_of(session, options));
+/// The files with one line or number an entry.
+void write_entries(Session& session, Run& run, const FormFactors& factors,
+                   const std::vector<FormFactorErrors>* errors) {
   const auto write = [&](const std::string& name, auto&& writer) {
     session.write(name, [&](const Request&) { writer(); });
   };
   if (run.csv != nullptr) {
     write("--csv", [&] {
-      write_factor_csv(factors, run.csv->stream());
+      write_factor_csv(factors, run.csv->stream(), errors);
       run.csv->commit();
     });
   }
-  if (run.npz != nullptr && factors.complete) {
+  if (run.npz != nullptr && (factors.complete || errors != nullptr)) {
     write("--npz", [&] {
-      write_factor_npz(factors, run.npz->temporary_path());
+      write_factor_npz(factors, run.npz->temporary_path(), errors);
       run.npz->commit();
     });
   }
+}
+
+ExitStatus answer_lines(Session& session, const FactorOptions& options,
+                        const Scene& scene,
+                        const std::vector<FormFactorSurface>& surfaces, Run& run) {
+  const Meter meter;
+  auto request = common_request<FormFactorLinesRequest>(session, options);
+  request.lines = *options.lines;
+  request.seed = options.seed.value_or(1);
+  const FormFactorLines estimate = form_factors_by_lines(scene, surfaces, request);
+  const FormFactors& factors = estimate.factors;
+  write_entries(session, run, factors, &estimate.errors);
   Json answer =
       answer_head("formfactors", scene, factors.complete && session.unwritten().empty(),
                   {session.seconds(), meter.predicates() + factors.predicates});
-  answer.update(matrix_answer(factors, options.accuracy, !options.up.empty()));
+  answer["method"] = "lines";
+  answer["seed"] = request.seed;
+  answer.update(factor_lines_json(estimate, !options.up.empty()));
+  run.outputs.write_answer(answer);
+  if (options.may_print()) {
+    print_rows(options, factors, fmt::format("estimated by {} lines", estimate.lines),
+               session.seconds());
+  }
+  return session.end(factors.complete);
+}
+
+ExitStatus answer_matrix(Session& session, const FactorOptions& options,
+                         const Scene& scene,
+                         const std::vector<FormFactorSurface>& surfaces, Run& run) {
+  if (options.lines) return answer_lines(session, options, scene, surfaces, run);
+  const Meter meter;
+  const FormFactors factors = form_factors(scene, surfaces, request_of(session, options));
+  write_entries(session, run, factors, nullptr);
+  Json answer =
+      answer_head("formfactors", scene, factors.complete && session.unwritten().empty(),
+                  {session.seconds(), meter.predicates() + factors.predicates});
+  answer.update(matrix_answer(factors, options.accuracy(), !options.up.empty()));
   if (options.enforce && factors.complete) {
     const EnforcedFactors e = enforced(factors);
     answer["enforced"] = factors_json(e.factors, !options.up.empty());
@@ -129,7 +181,10 @@ ExitStatus answer_matrix(Session& session, const FactorOptions& options,
     answer["enforced"]["left_over"] = e.left_over;
   }
   run.outputs.write_answer(answer);
-  if (options.may_print()) print_rows(options, factors, session.seconds());
+  if (options.may_print()) {
+    print_rows(options, factors, fmt::format("each within {:.1e}", factors.error_bound),
+               session.seconds());
+  }
   return session.end(factors.complete);
 }
 
@@ -241,10 +296,19 @@ void add_surface_options(CLI::App& command, FactorOptions& options) {
       command, "--without", options.without,
       "groups that are taken out of the scene first, such as panes of glass");
   command
-      .add_option("--accuracy", options.accuracy,
+      .add_option("--accuracy", options.asked_accuracy,
                   "largest error of an entry, 1e-13 to 0.1 (default 1e-10)")
       ->type_name("E")
       ->check(number_above_zero(0.1));
+  command
+      .add_option("--lines", options.lines,
+                  "estimate the matrix by so many random lines instead, at least 2: "
+                  "\"standard_errors\" in place of a bound")
+      ->type_name("N")
+      ->check(whole_number(2, std::uint64_t{1} << 62));
+  command.add_option("--seed", options.seed, "of these lines (default 1)")
+      ->type_name("N")
+      ->check(whole_number(0));
 }
 
 void add_answer_options(CLI::App& command, FactorOptions& options) {
@@ -298,6 +362,7 @@ Command add_formfactors_command(CLI::App& app) {
       "Examples:\n"
       "  sightline formfactors room.obj --json -\n"
       "  sightline formfactors room.obj --each face --accuracy 1e-7 --npz room.npz\n"
+      "  sightline formfactors city.obj --each face --lines 10000000 --npz city.npz\n"
       "  sightline formfactors hall.obj --groups floor,window --without pane\n"
       "  sightline formfactors roof.obj --at sensors.txt --up 0,0,1 --csv sensors.csv");
   return command_of(options, run);

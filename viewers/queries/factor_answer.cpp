@@ -77,18 +77,43 @@ Json matrix_answer(const FormFactors& factors, double accuracy, bool sky) {
   return j;
 }
 
-void write_factor_csv(const FormFactors& factors, std::ostream& out) {
-  out << kFactorCsvHead;
+Json factor_lines_json(const FormFactorLines& estimate, bool sky) {
+  const FormFactors& factors = estimate.factors;
+  Json j = factors_json(factors, sky);
+  j.erase("error_bound");
+  j["lines"] = estimate.lines;
+  j["area_per_line"] = estimate.area_per_line;
+  FormFactors errors;
+  errors.names = factors.names;
+  for (std::size_t i = 0; i < factors.rows.size(); ++i) {
+    const FormFactorErrors& e = estimate.errors[i];
+    errors.rows.push_back(
+        {factors.rows[i].to, e.factor, e.others, e.outside, e.backs, e.sky});
+  }
+  const Json all = factors_json(errors, sky);
+  for (const char* key : {"matrix", "others", "outside", "backs", "sky"}) {
+    if (all.contains(key)) j["standard_errors"][key] = all[key];
+  }
+  return j;
+}
+
+void write_factor_csv(const FormFactors& factors, std::ostream& out,
+                      const std::vector<FormFactorErrors>* errors) {
+  out << (errors != nullptr ? std::string_view("from,to,factor,standard_error\n")
+                            : kFactorCsvHead);
   for (std::size_t i = 0; i < factors.rows.size(); ++i) {
     const FormFactorRow& row = factors.rows[i];
     for (std::size_t k = 0; k < row.to.size(); ++k) {
-      out << fmt::format("{},{},{:.17g}\n", csv_field(factors.names[i]),
+      out << fmt::format("{},{},{:.17g}", csv_field(factors.names[i]),
                          csv_field(factors.names[row.to[k]]), row.factor[k]);
+      if (errors != nullptr) out << fmt::format(",{:.17g}", (*errors)[i].factor[k]);
+      out << '\n';
     }
   }
 }
 
-void write_factor_npz(const FormFactors& factors, const std::filesystem::path& file) {
+void write_factor_npz(const FormFactors& factors, const std::filesystem::path& file,
+                      const std::vector<FormFactorErrors>* errors) {
   NpzFile npz(file);
   const auto n = static_cast<std::int64_t>(factors.rows.size());
   std::vector<std::int64_t> indptr{0};
@@ -106,6 +131,13 @@ void write_factor_npz(const FormFactors& factors, const std::filesystem::path& f
     npz.write(row.factor.data(), row.factor.size() * sizeof(double));
   }
   npz.end();
+  if (errors != nullptr) {
+    npz.begin("standard_errors", "<f8", &entries);
+    for (const FormFactorErrors& row : *errors) {
+      npz.write(row.factor.data(), row.factor.size() * sizeof(double));
+    }
+    npz.end();
+  }
   npz.add("indptr", indptr);
   npz.add_text("format", "csr");
   npz.add("shape", std::vector<std::int64_t>{n, n});

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "shadows/form_factors.h"
+#include "shadows/form_factor_lines.h"
 #include "viewers/answer.h"
 
 namespace sightline::viewers {
@@ -26,11 +26,18 @@ inline constexpr std::size_t kLargestMatrix = 5000;
 [[nodiscard]] Json matrix_answer(const FormFactors& factors, double accuracy, bool sky);
 
 inline constexpr std::string_view kFactorCsvHead = "from,to,factor\n";
-/// A line for every entry that is not 0.
-void write_factor_csv(const FormFactors& factors, std::ostream& out);
-/// What scipy.sparse.load_npz opens, and "areas", "names", "others", "outside", "backs".
-/// Requires all rows.
-void write_factor_npz(const FormFactors& factors, const std::filesystem::path& file);
+/// The same of an estimate by lines; instead of a bound "lines", "area_per_line", and
+/// "standard_errors": an object with "matrix", "others", "outside", "backs" and "sky".
+[[nodiscard]] Json factor_lines_json(const FormFactorLines& estimate, bool sky);
+
+/// A line for every entry that is not 0: from, to, factor, and the standard error of an
+/// estimate (null: none).
+void write_factor_csv(const FormFactors& factors, std::ostream& out,
+                      const std::vector<FormFactorErrors>* errors = nullptr);
+/// What scipy.sparse.load_npz opens, and "areas", "names", "others", "outside", "backs",
+/// and "standard_errors" of an estimate, in the order of "data".  Requires all rows.
+void write_factor_npz(const FormFactors& factors, const std::filesystem::path& file,
+                      const std::vector<FormFactorErrors>* errors = nullptr);
 
 /// One of "points".
 [[nodiscard]] Json point_factors_json(const PointFactors& factors, bool sky);
