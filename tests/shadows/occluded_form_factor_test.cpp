@@ -312,5 +312,24 @@ TEST(OccludedFormFactor, SideInThePlaneOfTheTarget) {
   EXPECT_NEAR(open.value, 0.0021458, 1e-7);
 }
 
+// Hairs that lie on a side of the target with their short ends, and hide nothing.  A line
+// is less well known by a short stretch of it, and a plane by a narrow polygon in it:
+// each in its turn, the hair's end counted as crossing the side, and the side as leaving
+// the hair's plane, so that the stretch was left out or counted twice.
+TEST(OccludedFormFactor, HairsThatEndAtASideOfTheTarget) {
+  const double hair = std::ldexp(1, -20);
+  const Corners leaning{{0.5, 0.25, 0.25}, {0.5 + hair, 0.5, 0.25}, {0.75, 0.75, 0.5}};
+  const Corners window{{0, 0, 0}, {0, 0, 1}, {1 + hair, 0, 1}, {1 + hair, 0, 0}};
+  const Corners below{{0.5625, 0, 0}, {0.5625 + hair, 0, 0}, {0.5625, 1, 0}};
+  const Corners beside{
+      {1, 1, 0.75}, {1 + hair, 1, 0.75}, {1 + hair, 0, 0.75}, {1, 0, 0.75}};
+  const double open = exchange(leaning, window, {}).value;
+  EXPECT_NEAR(open, 0.003004910194909, 1e-13);
+  for (const Corners& blocker : {below, beside}) {
+    EXPECT_NEAR(exchange(leaning, window, {blocker}).value, open, 1e-13);
+    EXPECT_NEAR(exchange(window, leaning, {blocker}).value, open, 1e-13);
+  }
+}
+
 }  // namespace
 }  // namespace sightline
