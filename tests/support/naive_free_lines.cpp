@@ -333,6 +333,9 @@ double gauss(double from, double to, Function&& f) {
   return half * sum;
 }
 
+constexpr std::array kWhole{1.0};
+constexpr std::array kGraded{1.0 / 64, 1.0 / 8, 0.5, 7.0 / 8, 63.0 / 64, 1.0};
+
 struct Halved {
   double from, to, left, right, change;
   bool operator<(const Halved& other) const { return change < other.change; }
@@ -341,7 +344,8 @@ struct Halved {
 /// The interval that halving changes most is halved until all changes add up to no more
 /// than the tolerance.  Returns the integral and that sum.
 template <class Function>
-std::array<double, 2> halve(const std::vector<double>& ends, double tolerance,
+std::array<double, 2> halve(const std::vector<double>& ends,
+                            std::span<const double> parts, double tolerance,
                             Function&& f) {
   std::priority_queue<Halved> queue;
   double sum = 0, change = 0;
@@ -354,8 +358,13 @@ std::array<double, 2> halve(const std::vector<double>& ends, double tolerance,
     queue.push(h);
   };
   for (std::size_t i = 1; i < ends.size(); ++i) {
-    if (ends[i - 1] < ends[i]) {
-      add(ends[i - 1], ends[i], gauss(ends[i - 1], ends[i], f));
+    // Parts that grow from both ends: what happens near a kink does not fall between
+    // nodes.
+    double from = ends[i - 1];
+    for (const double share : parts) {
+      const double to = ends[i - 1] + share * (ends[i] - ends[i - 1]);
+      if (from < to) add(from, to, gauss(from, to, f));
+      from = to;
     }
   }
   for (int k = 0; k < 100000 && !queue.empty() && change > tolerance; ++k) {
@@ -385,7 +394,7 @@ double over_meridian(const Setting& setting, double phi, double tolerance,
   for (const double end : ends) {
     if (end > apart.back() + 1e-13) apart.push_back(end);
   }
-  return halve(apart, tolerance, [&](double theta) {
+  return halve(apart, kWhole, tolerance, [&](double theta) {
     ++directions;
     return meridian.area(std::tan(theta)) * std::sin(2 * theta);
   })[0];
@@ -462,7 +471,7 @@ FreeLines free_lines(std::span<const Point> from, std::span<const Point> to,
   const double wanted = tolerance / scale;
   // Meridians are found so much more exactly that phi sees no noise of theirs.
   const double each = 0.02 * wanted;
-  const auto [sum, change] = halve(azimuths(*s), wanted, [&](double phi) {
+  const auto [sum, change] = halve(azimuths(*s), kGraded, wanted, [&](double phi) {
     return over_meridian(*s, phi, each, result.directions);
   });
   result.exchange = scale * sum;
