@@ -74,6 +74,15 @@ double with_sign(double value, Sign sign) {
   return sign == Sign::Positive ? size : -size;
 }
 
+/// A side that rounding has laid now on this, now on that side of a plane lies in it: cut
+/// there, it would have a corner too many.
+void settle(Corner& c) {
+  for (double& height : c.heights) {
+    if (std::abs(height) < kTouching) height = 0;
+  }
+  if (c.heights[0] == 0) c.at.z() = 0;
+}
+
 /// The part of a convex polygon with that height above 0; empty where there is none.
 std::vector<Corner> above(const std::vector<Corner>& polygon, int which) {
   std::vector<Corner> part;
@@ -92,23 +101,50 @@ std::vector<Corner> above(const std::vector<Corner>& polygon, int which) {
         cut.heights[k] = a.heights[k] + w * (b.heights[k] - a.heights[k]);
       }
       cut.heights[which] = 0;
-      if (which == 0) cut.at.z() = 0;
+      // Where three planes share a line, a corner cut out of two lies in the third.
+      settle(cut);
       part.push_back(cut);
     }
   }
   return part;
 }
 
+/// Which way the polygon is long, and how wide it is in the two directions.
+void find_spans(Plate& plate) {
+  Vector longest = Vector::Zero();
+  for (const Vector& c : plate.corners) {
+    if ((c - plate.corners[0]).norm() > longest.norm()) longest = c - plate.corners[0];
+  }
+  const Vector along = longest.normalized(), across = plate.normal.cross(along);
+  for (int k = 0; k < 2; ++k) {
+    const Vector& u = k == 0 ? along : across;
+    double low = 0, high = 0;
+    for (const Vector& c : plate.corners) {
+      low = std::min(low, u.dot(c - plate.corners[0]));
+      high = std::max(high, u.dot(c - plate.corners[0]));
+    }
+    plate.spans[k] = u / std::max(high - low, kTouching);
+  }
+}
+
 Plate plate_of(const std::vector<Corner>& polygon, const Vector& normal) {
   Plate plate;
   for (const Corner& c : polygon) plate.corners.push_back(c.at);
   plate.normal = normal;
-  Vector mean = Vector::Zero();
-  for (const Vector& c : plate.corners) mean += c;
-  plate.offset = plate.corners.empty()
-                     ? 0
-                     : -normal.dot(mean) / static_cast<double>(plate.corners.size());
+  plate.middle = Vector::Zero();
+  plate.offset = 0;
+  if (plate.corners.empty()) return plate;
+  for (const Vector& c : plate.corners) plate.middle += c;
+  plate.middle /= static_cast<double>(plate.corners.size());
+  plate.offset = -normal.dot(plate.middle);
+  find_spans(plate);
   return plate;
+}
+
+/// The point lies in the plate's plane, as far as that is known.
+bool on_plane(const Plate& plate, const Vector& x) {
+  const double height = std::abs(plate.height(x));
+  return height <= kTouching || height <= kTouching * plate.reach(x);
 }
 
 /// Brings polygons into the frame, with the signs of their heights.
@@ -130,12 +166,7 @@ class Importer {
       c.heights[0] = with_sign(c.at.z(), orient3d(sender_[0], sender_[1], sender_[2], p));
       c.heights[1] = with_sign(target_normal_.dot(c.at - target_at_),
                                orient3d(target_[0], target_[1], target_[2], p));
-      // A side that rounding has laid now on this, now on that side of a plane lies in
-      // it: cut there, it would have a corner too many.
-      for (double& height : c.heights) {
-        if (std::abs(height) < kTouching) height = 0;
-      }
-      if (c.heights[0] == 0) c.at.z() = 0;
+      settle(c);
       result.push_back(c);
     }
     return result;
@@ -187,8 +218,12 @@ std::optional<Attachment> attachment(const ContourPiece& line, const Plate& plat
   if (!(a.to - a.from > 4 * kTouching)) return std::nullopt;
   for (const Vector& p : plate.corners) {
     const double h = a.across.dot(p - line.start);
-    a.positive = a.positive || h > 2 * kTouching;
-    a.negative = a.negative || h < -2 * kTouching;
+    // Of a short stretch the direction is known less well: a corner that far along it is
+    // beside it where its side leaves the stretch itself by as much.
+    const double along = std::abs(line.direction.dot(p - line.start));
+    const double beside = 2 * kTouching * (1 + along / line.length);
+    a.positive = a.positive || h > beside;
+    a.negative = a.negative || h < -beside;
   }
   return a;
 }
@@ -245,8 +280,7 @@ class PieceMaker {
     attached_.clear();
     for (int p = 0; p <= target_; ++p) {
       const Plate& plate = plate_at(p);
-      const bool in_plane = std::abs(plate.height(line.start)) <= kTouching &&
-                            std::abs(plate.height(end)) <= kTouching;
+      const bool in_plane = on_plane(plate, line.start) && on_plane(plate, end);
       if (p == target_) {
         line.on_target = in_plane;
       } else if (!in_plane) {
@@ -281,10 +315,9 @@ class PieceMaker {
     g_.pieces.push_back(std::move(piece));
   }
   void show_target(ContourPiece& piece, const Attachment& a) const {
-    const FlatPoint& p = g_.sender[0];
-    const FlatPoint& r = g_.sender[g_.sender.size() / 2];
-    const Vector x{0.5 * (p.x + r.x), 0.5 * (p.y + r.y), 0};
-    const double side = piece.direction.cross(a.across).dot(x - piece.start);
+    // The sender lies before the target's front, so that direction x across, which is the
+    // front's normal or its opposite, tells on which side its points see the target.
+    const double side = piece.direction.cross(a.across).dot(g_.target.normal);
     const bool plus = side > 0 ? a.positive : a.negative;
     const bool minus = side > 0 ? a.negative : a.positive;
     piece.shows_positive = plus;

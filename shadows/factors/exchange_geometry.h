@@ -25,7 +25,15 @@ struct Plate {
   std::vector<Eigen::Vector3d> corners;
   Eigen::Vector3d normal;  ///< unit; counter-clockwise seen from its front
   double offset;           ///< normal . x + offset = 0 on its plane
+  Eigen::Vector3d middle;  ///< of its corners
+  /// In the plane: 1 / width in the direction in which it is long, and across.
+  std::array<Eigen::Vector3d, 2> spans;
 
+  /// How many times a distance in the plate that point lies beside its middle: by so much
+  /// more than near the plate its height is uncertain, since the normal is.
+  [[nodiscard]] double reach(const Eigen::Vector3d& x) const {
+    return std::abs(spans[0].dot(x - middle)) + std::abs(spans[1].dot(x - middle));
+  }
   [[nodiscard]] double height(const Eigen::Vector3d& x) const {
     return normal.dot(x) + offset;
   }

@@ -11,12 +11,16 @@
 
 #include "shadows/factors/exchange_area.h"
 #include "shadows/polygon_form_factor.h"
+#include "tests/shadows/random_pairs.h"
 
 namespace sightline {
 namespace {
 
 using internal::ExchangeArea;
-using Corners = std::vector<Point>;
+using testing::box_faces;
+using testing::Corners;
+using testing::random_pair;
+using testing::RandomPair;
 
 /// In a plane z = height.
 struct Rectangle {
@@ -28,21 +32,6 @@ struct Rectangle {
   }
 };
 constexpr Rectangle kUnit{0, 0, 1, 1};
-
-std::vector<Corners> box(const Point& low, const Point& high) {
-  std::vector<Corners> faces;
-  for (int axis = 0; axis < 3; ++axis) {
-    for (const double at : {low[axis], high[axis]}) {
-      Corners face(4, low);
-      const int u = (axis + 1) % 3, v = (axis + 2) % 3;
-      face[1][u] = face[2][u] = high[u];
-      face[2][v] = face[3][v] = high[v];
-      for (Point& p : face) p[axis] = at;
-      faces.push_back(face);
-    }
-  }
-  return faces;
-}
 
 ExchangeArea exchange(const Corners& from, const Corners& to,
                       const std::vector<Corners>& blockers, double tolerance = 1e-12) {
@@ -213,11 +202,11 @@ TEST(OccludedFormFactor, ReciprocalWhereBlockersTouch) {
       {fin(0.5, 0.3, 0.7, 0.3, 1)},
       {fin(0.5, 0, 1, -0.5, 1.5)},
       {{{0, 0, 0}, {0.5, 0, 0.5}, {0, 0.5, 0.5}}},
-      box({0.3, 0.3, 0}, {0.6, 0.7, 0.5}),
-      box({0, 0.3, 0}, {0.6, 0.7, 0.5}),
-      box({0, 0, 0}, {0.5, 0.5, 0.5}),
-      box({0.3, 0.3, 0.5}, {0.6, 0.7, 1}),
-      box({-1, 0.4, 0.2}, {2, 0.6, 0.6})};
+      box_faces({0.3, 0.3, 0}, {0.6, 0.7, 0.5}),
+      box_faces({0, 0.3, 0}, {0.6, 0.7, 0.5}),
+      box_faces({0, 0, 0}, {0.5, 0.5, 0.5}),
+      box_faces({0.3, 0.3, 0.5}, {0.6, 0.7, 1}),
+      box_faces({-1, 0.4, 0.2}, {2, 0.6, 0.6})};
   for (std::size_t i = 0; i < cases.size(); ++i) {
     for (const Corners& other : {ceiling, wall}) {
       const ExchangeArea there = exchange(floor, other, cases[i]);
@@ -238,41 +227,6 @@ TEST(OccludedFormFactor, AWallThatPartsTheRoom) {
   const double half =
       0.5 * polygon_form_factor(left.at(0, true), left.at(1, false)).factor;
   EXPECT_NEAR(exchange(floor, ceiling, {partition}).value, 2 * half, 1e-14);
-}
-
-struct RandomPair {
-  Corners from, to;
-  std::vector<Corners> blockers;
-};
-
-RandomPair random_pair(int seed) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> unit(0, 1);
-  const auto point = [&] { return Point{unit(random), unit(random), unit(random)}; };
-  RandomPair pair{kUnit.at(0, true), kUnit.at(1, false), {}};
-  if (seed % 3 == 1) {
-    pair.to = {{0, 0, 0}, {0, 1, 0}, {0, 1, 1}, {0, 0, 1}};
-  } else if (seed % 3 == 2) {
-    pair.from = {point(), point(), point()};
-    pair.to = {point(), point(), point()};
-    for (Point& p : pair.to) p.z() += 0.5;
-  }
-  const int count = 1 + static_cast<int>(4 * unit(random));
-  for (int i = 0; i < count; ++i) {
-    const Point at = point();
-    if (seed % 4 == 0) {
-      const Point low{std::round(8 * at.x()) / 8, std::round(8 * at.y()) / 8,
-                      std::round(8 * at.z()) / 8};
-      for (Corners& face : box(low, low + Point{0.25, 0.125, 0.25})) {
-        pair.blockers.push_back(std::move(face));
-      }
-    } else {
-      const Point half = Point::Constant(0.25);
-      pair.blockers.push_back({at + 0.5 * point() - half, at + 0.5 * point() - half,
-                               at + 0.5 * point() - half});
-    }
-  }
-  return pair;
 }
 
 // The bound that is told holds, and is not above what was asked.
@@ -310,6 +264,25 @@ TEST(OccludedFormFactor, SideInThePlaneOfTheTarget) {
   EXPECT_LT(partly.value, open.value);
   EXPECT_GT(partly.value, 0.99 * open.value);
   EXPECT_NEAR(open.value, 0.0021458, 1e-7);
+}
+
+// Hairs that lie on a side of the target with their short ends, and hide nothing.  A line
+// is less well known by a short stretch of it, and a plane by a narrow polygon in it:
+// each in its turn, the hair's end counted as crossing the side, and the side as leaving
+// the hair's plane, so that the stretch was left out or counted twice.
+TEST(OccludedFormFactor, HairsThatEndAtASideOfTheTarget) {
+  const double hair = std::ldexp(1, -20);
+  const Corners leaning{{0.5, 0.25, 0.25}, {0.5 + hair, 0.5, 0.25}, {0.75, 0.75, 0.5}};
+  const Corners window{{0, 0, 0}, {0, 0, 1}, {1 + hair, 0, 1}, {1 + hair, 0, 0}};
+  const Corners below{{0.5625, 0, 0}, {0.5625 + hair, 0, 0}, {0.5625, 1, 0}};
+  const Corners beside{
+      {1, 1, 0.75}, {1 + hair, 1, 0.75}, {1 + hair, 0, 0.75}, {1, 0, 0.75}};
+  const double open = exchange(leaning, window, {}).value;
+  EXPECT_NEAR(open, 0.003004910194909, 1e-13);
+  for (const Corners& blocker : {below, beside}) {
+    EXPECT_NEAR(exchange(leaning, window, {blocker}).value, open, 1e-13);
+    EXPECT_NEAR(exchange(window, leaning, {blocker}).value, open, 1e-13);
+  }
 }
 
 }  // namespace

@@ -25,11 +25,11 @@ inline constexpr std::size_t kLargestMatrix = 5000;
 /// and of them how many have nothing in between, or something.
 [[nodiscard]] Json matrix_answer(const FormFactors& factors, double accuracy, bool sky);
 
-inline constexpr std::string_view kFactorCsvHead = "from,to,factor\n";
 /// The same of an estimate by lines; instead of a bound "lines", "area_per_line", and
 /// "standard_errors": an object with "matrix", "others", "outside", "backs" and "sky".
 [[nodiscard]] Json factor_lines_json(const FormFactorLines& estimate, bool sky);
 
+inline constexpr std::string_view kFactorCsvHead = "from,to,factor\n";
 /// A line for every entry that is not 0: from, to, factor, and the standard error of an
 /// estimate (null: none).
 void write_factor_csv(const FormFactors& factors, std::ostream& out,
