@@ -25,6 +25,10 @@
 
 namespace sightline {
 
+namespace internal {
+class SourceScene;
+}
+
 /// Who asks: a point, and perhaps the normal of the surface there.
 struct ShadowPoint {
   ExactPosition at;
@@ -68,6 +72,9 @@ class BackprojectionIndex {
   /// the faces that hide a part of the source, at worst.
   [[nodiscard]] Backprojection from(const ShadowPoint& point,
                                     const BackprojectionOptions& options = {}) const;
+
+  /// For this module: what all points share.
+  [[nodiscard]] const internal::SourceScene& source_scene() const;
 
  private:
   struct Impl;

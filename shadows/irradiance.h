@@ -1,22 +1,22 @@
-// Irradiance interpolated over a discontinuity mesh: one polynomial of degree 1 or 2 on
-// each triangle of the mesh's faces.
+// Irradiance over a discontinuity mesh: in closed form, and interpolated by one
+// polynomial of degree 1 or 2 on each of many triangles, with a bound of the error.
 //
 //   const Shadows shadows = find_shadows(scene, source, {ground});
 //   const BackprojectionIndex light(scene, source);
-//   const IrradianceMesh mesh(scene, light, ground, shadows.receivers[0].meshes[0]);
-//   if (const auto here = mesh.at({1, 2, 0})) std::cout << here->value << '\n';
+//   const IrradianceMesh mesh(scene, light, ground, shadows,
+//   shadows.receivers[0].meshes[0]); if (const auto here = mesh.at({1, 2, 0})) std::cout
+//   << here->value << '\n';
 //
-// What is proved: in faces of umbra the value is 0, and nodes have the exact value of a
-// point that lies 2^-26 of its distance from the middle of the triangle nearer to it: the
-// limit from the triangle's own side, so that jumps at feet of blockers are kept.
-// What is estimated: the error between the nodes.  It is twice (order 1) or four
-// times (order 2) the largest departure from exact values at points between them.  A
-// triangle is cut until that is small enough.
-// Curved edges are replaced by the chords of their polylines: between chord and curve the
-// neighbour's polynomial answers, and the estimate does not know of that.
+// In a face of the mesh the part of the light that is seen has the same sides everywhere,
+// so its form factor is one formula, which costs less than a microsecond: order 0 answers
+// by it.  Orders 1 and 2 cut faces into triangles until bounds of the formula's
+// derivatives prove that the polynomial through its values is near enough.  Where they do
+// not, as at the foot of a blocker's corner, the formula answers.
+//
+// docs/irradiance.md proves the bound, and says what it leaves out.
 //
 // Heckbert, Discontinuity meshing for radiosity, 1992.
-// Neighbours: shadow_mesh.h finds the mesh; backprojection.h has the exact values.
+// Neighbours: shadow_mesh.h finds the mesh; backprojection.h asks single points.
 
 #pragma once
 
@@ -31,38 +31,45 @@
 namespace sightline {
 
 struct IrradianceOptions {
-  int order = 2;  ///< degree of the polynomials, 1 or 2
-  /// Of the form factor: triangles are cut until their estimate is at most that.
-  double accuracy = 1e-4;
-  int depth = 5;  ///< at most so often is a triangle cut into four
+  int order = 2;  ///< degree of the polynomials, 1 or 2; 0: closed forms alone
+  /// Of the form factor: triangles are cut until their bound is at most that.
+  double accuracy = 1e-5;
+  /// Triangles smaller than this share of the facet's area are not cut.
+  double smallest = 1e-5;
 };
 
 /// Immutable; at() may be called from several threads.  Keeps no reference.
 class IrradianceMesh {
  public:
-  /// mesh: of this receiver.  Of the request threads, budget, stop and progress are
-  /// heard.  Throws Stopped, and InvalidInput for an order other than 1 and 2 and for a
-  /// mesh whose facet the receiver does not have.
-  /// Cost: some points asked exactly for each triangle.
+  /// mesh: one of `shadows`, of this receiver.  Of the request threads, budget, stop and
+  /// progress are heard; the answer does not depend on threads.  Throws Stopped, and
+  /// InvalidInput for an order other than 0, 1 and 2 and for a mesh whose facet the
+  /// receiver does not have.
+  /// Cost: a few microseconds for each triangle, of which a curved face has more.
   IrradianceMesh(const Scene& scene, const BackprojectionIndex& light,
-                 const Receiver& receiver, const ShadowMesh& mesh,
+                 const Receiver& receiver, const Shadows& shadows, const ShadowMesh& mesh,
                  const IrradianceOptions& options = {}, const Request& request = {});
   ~IrradianceMesh();
   IrradianceMesh(IrradianceMesh&&) noexcept;
 
   struct Value {
-    double value;     ///< form factor of the point to the source
-    double estimate;  ///< of the error, as said above: not a bound
+    double value;  ///< form factor of the point to the source
+    double bound;  ///< of its error but for roundings, which are some 1e-14
   };
   /// The point's foot in the plane of the facet; nullopt beside the facet.
   /// Cost: constant where triangles are of one size.
   [[nodiscard]] std::optional<Value> at(const Point& p) const;
 
-  [[nodiscard]] std::size_t triangle_count() const;
-  /// Points that were asked exactly.
-  [[nodiscard]] std::size_t exact_points() const;
-  /// The largest estimate of a triangle: above the accuracy where `depth` ended the cuts.
-  [[nodiscard]] double largest_estimate() const;
+  /// What the mesh is made of.  Shares are of the area of its triangles.
+  struct Statistics {
+    std::size_t triangles = 0;     ///< that answer
+    double largest_bound = 0;      ///< of any triangle
+    double closed_form_share = 0;  ///< where the closed form answers
+    /// Where the bound is above the accuracy: along curves of the mesh beside which the
+    /// light changes too fast, and where there is no closed form.
+    double above_accuracy_share = 0;
+  };
+  [[nodiscard]] const Statistics& statistics() const;
 
  private:
   struct Impl;

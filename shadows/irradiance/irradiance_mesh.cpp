@@ -1,11 +1,14 @@
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <numbers>
 
 #include "linespace/work/parallel.h"
 #include "shadows/irradiance.h"
+#include "shadows/irradiance/element_tree.h"
 #include "shadows/irradiance/mesh_triangles.h"
+#include "shadows/irradiance/triangle_grid.h"
 
 namespace sightline {
 
@@ -13,285 +16,219 @@ using namespace internal;
 
 namespace {
 
-using Barycentric = Eigen::Vector3d;
+// Of the accuracy, what a chord in place of a curve may add to the error.
+constexpr double kChordShare = 1.0 / 16;
 
-// Nodes of a triangle: its corners, then the middles of the sides 01, 12 and 20.
-using Nodes = std::array<double, 6>;
-
-double interpolate(const Nodes& v, const Barycentric& b, int order) {
-  if (order == 1) return b[0] * v[0] + b[1] * v[1] + b[2] * v[2];
-  double sum = 0;
-  for (int i = 0; i < 3; ++i) {
-    sum += b[i] * (2 * b[i] - 1) * v[i];
-    sum += 4 * b[i] * b[(i + 1) % 3] * v[3 + i];
+// A face of the receiver in whose plane the mesh lies: of a facet that rounding has bent
+// the nearest one.
+int face_of(const Scene& scene, const Receiver& receiver, const ShadowMesh& mesh) {
+  int best = -1;
+  double nearest = Majorant::kUnknown;
+  for (const int f : receiver.faces) {
+    if (scene.faces()[f].facet != mesh.facet) continue;
+    const auto t = plane_points(scene, f);
+    const Point a = scene.point(t[0]);
+    const Eigen::Vector3d normal =
+        (scene.point(t[1]) - a).cross(scene.point(t[2]) - a).normalized();
+    double off = 0;
+    for (const Eigen::Vector2d& p : mesh.vertices) {
+      const Point at =
+          mesh.frame.origin + p.x() * mesh.frame.x_axis + p.y() * mesh.frame.y_axis;
+      off = std::max(off, std::abs(normal.dot(at - a)));
+    }
+    if (off >= nearest) continue;
+    nearest = off;
+    best = f;
   }
-  return sum;
+  if (best < 0) throw InvalidInput("the mesh is not of this receiver");
+  return best;
 }
 
-Barycentric barycentric(const std::array<Eigen::Vector2d, 3>& t,
-                        const Eigen::Vector2d& p) {
-  const Eigen::Vector2d u = t[1] - t[0], v = t[2] - t[0], w = p - t[0];
-  const double d = u.x() * v.y() - u.y() * v.x();
-  const double b = (w.x() * v.y() - w.y() * v.x()) / d;
-  const double c = (u.x() * w.y() - u.y() * w.x()) / d;
-  return {1 - b - c, b, c};
-}
-
-// A triangle, or one that is cut into four: child i lies at corner i, child 3 between.
-struct Leaf {
-  Nodes values;
-  double estimate;
-  int children = -1;  // the first of four
-};
-
-// One triangle of the mesh with all that it is cut into; the first leaf is the whole.
-struct Tree {
-  std::array<Eigen::Vector2d, 3> corners;
-  std::vector<Leaf> leaves;
-};
-
-// The child in which a point lies; its place becomes that in the child.
-int descend(Barycentric& b) {
-  for (int i = 0; i < 3; ++i) {
-    if (b[i] < 0.5) continue;
-    b *= 2;
-    b[i] -= 1;
-    return i;
-  }
-  // The child between has its corners at the middles of 01, 12 and 20.
-  b = Barycentric(1 - 2 * b[2], 1 - 2 * b[0], 1 - 2 * b[1]);
-  return 3;
-}
-
-// Places of the three corners of a child, in its parent's coordinates.
-std::array<Barycentric, 3> child_corners(const std::array<Barycentric, 3>& c, int child) {
-  const std::array<Barycentric, 3> m{(c[0] + c[1]) / 2, (c[1] + c[2]) / 2,
-                                     (c[2] + c[0]) / 2};
-  if (child == 3) return m;
-  std::array<Barycentric, 3> corners;
-  corners[child] = c[child];
-  corners[(child + 1) % 3] = m[child];
-  corners[(child + 2) % 3] = m[(child + 2) % 3];
-  return corners;
+Eigen::Vector3d unit_normal(const Scene& scene, int face, bool front) {
+  const auto t = plane_points(scene, face);
+  const Point a = scene.point(t[0]);
+  const Eigen::Vector3d n =
+      (scene.point(t[1]) - a).cross(scene.point(t[2]) - a).normalized();
+  return scene.turned(face) == front ? Eigen::Vector3d(-n) : n;
 }
 
 }  // namespace
 
 struct IrradianceMesh::Impl {
   Impl(const Scene& scene, const BackprojectionIndex& light, const Receiver& receiver,
-       const ShadowMesh& mesh, const IrradianceOptions& options, const Request& request)
-      : scene_(&scene),
-        light_(&light),
-        options_(options),
-        front_(receiver.front),
-        frame_(mesh.frame) {
-    if (options.order != 1 && options.order != 2)
-      throw InvalidInput("irradiance is interpolated with order 1 or 2");
-    for (const int f : receiver.faces) {
-      if (scene.faces()[f].facet == mesh.facet) face_ = f;
-    }
-    if (face_ < 0) throw InvalidInput("the mesh is not of this receiver");
+       const Shadows& shadows, const ShadowMesh& mesh, const IrradianceOptions& options,
+       const Request& request)
+      : options_(options), frame_(mesh.frame) {
+    if (options.order < 0 || options.order > 2)
+      throw InvalidInput("irradiance is interpolated with order 0, 1 or 2");
+    const int face = face_of(scene, receiver, mesh);
+    normal_ = unit_normal(scene, face, receiver.front);
     Eigen::Matrix<double, 3, 2> axes;
     axes << frame_.x_axis, frame_.y_axis;
     to_frame_ = (axes.transpose() * axes).inverse() * axes.transpose();
-    const MeshTriangles cut = mesh_triangles(mesh);
-    const std::vector<double> values = node_values(mesh, cut, request);
-    trees_.resize(cut.triangles.size());
-    Stage stage(request, "triangles of the mesh");
-    for_each_of(0, trees_.size(), trees_.size(), request, stage,
-                [&](std::size_t t) { grow(mesh, cut.triangles[t], values, trees_[t]); });
-    scene_ = nullptr;
-    light_ = nullptr;
-    for (const Tree& tree : trees_) {
-      for (const Leaf& leaf : tree.leaves) {
-        if (leaf.children < 0) largest_ = std::max(largest_, leaf.estimate);
-        triangles_ += leaf.children < 0 ? 1 : 0;
-      }
-    }
-    fill_cells();
-  }
-
-  [[nodiscard]] static bool is_dark(const ShadowMesh& mesh, const MeshTriangle& t) {
-    return t.face >= 0 && mesh.faces[t.face].shadow == ShadowClass::Umbra;
-  }
-
-  // The exact value at a place of a triangle, from that triangle's side.
-  [[nodiscard]] double exact(const std::array<Eigen::Vector2d, 3>& corners,
-                             const Barycentric& place) {
-    const Barycentric b =
-        place + 0x1p-26 * (Barycentric::Constant(1.0 / 3) - place).eval();
-    const Eigen::Vector2d p = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
-    const Point at = frame_.origin + p.x() * frame_.x_axis + p.y() * frame_.y_axis;
-    ++asked_;
-    return light_->from(shadow_point_on_face(*scene_, face_, at, front_))
-        .form_factor.value_or(0);
-  }
-
-  // Each node once, from the first triangle that has it.
-  std::vector<double> node_values(const ShadowMesh& mesh, const MeshTriangles& cut,
-                                  const Request& request) {
-    std::vector<double> values(cut.node_count, 0);
-    std::vector<std::array<int, 2>> first(cut.node_count, {-1, -1});
-    for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
-      if (is_dark(mesh, cut.triangles[t])) continue;
-      for (int i = 0; i < 6; ++i)
-        first[cut.triangles[t].nodes[i]] = {static_cast<int>(t), i};
-    }
-    Stage stage(request, "nodes of the mesh");
-    for_each_of(0, values.size(), values.size(), request, stage, [&](std::size_t n) {
-      const auto [t, i] = first[n];
-      if (t < 0) return;
-      Barycentric place = Barycentric::Unit(i % 3);
-      if (i >= 3) place = (place + Barycentric::Unit((i + 1) % 3)) / 2;
-      values[n] = exact(cut.triangles[t].corners, place);
-    });
-    return values;
-  }
-
-  void grow(const ShadowMesh& mesh, const MeshTriangle& triangle,
-            const std::vector<double>& values, Tree& tree) {
-    tree.corners = triangle.corners;
-    Leaf whole{{}, 0};
-    for (int i = 0; i < 6; ++i) whole.values[i] = values[triangle.nodes[i]];
-    tree.leaves.push_back(whole);
-    if (is_dark(mesh, triangle)) return;
-    refine(tree, 0, {Barycentric::Unit(0), Barycentric::Unit(1), Barycentric::Unit(2)},
-           0);
-  }
-
-  // A multiple of the largest departure at points between the nodes.  Quadratics that
-  // vanish at the corners are largest near the middles of sides.  The cubic x y (x - y)
-  // is 3.1 times as large on its side as at the points asked.
-  [[nodiscard]] double estimate(const Tree& tree, const Nodes& v,
-                                const std::array<Barycentric, 3>& c) {
-    double most = 0;
-    const auto check = [&](const Barycentric& b) {
-      const double value = exact(tree.corners, b[0] * c[0] + b[1] * c[1] + b[2] * c[2]);
-      most = std::max(most, std::abs(value - interpolate(v, b, options_.order)));
-    };
-    if (options_.order == 1) {
-      for (int i = 0; i < 3; ++i)
-        most = std::max(most, std::abs(v[3 + i] - (v[i] + v[(i + 1) % 3]) / 2));
-    } else {
-      // Of the four cubics that vanish at all nodes these points tell each.
-      check({0.5, 0.25, 0.25});
-      check({0.25, 0.5, 0.25});
-      check({0.25, 0.25, 0.5});
-    }
-    check({4.0 / 7, 2.0 / 7, 1.0 / 7});
-    return (options_.order == 1 ? 2 : 4) * most;
-  }
-
-  void refine(Tree& tree, int leaf, const std::array<Barycentric, 3>& c, int depth) {
-    const Nodes v = tree.leaves[leaf].values;
-    tree.leaves[leaf].estimate = estimate(tree, v, c);
-    if (tree.leaves[leaf].estimate <= options_.accuracy || depth >= options_.depth)
-      return;
-    const int children = static_cast<int>(tree.leaves.size());
-    tree.leaves[leaf].children = children;
-    tree.leaves.resize(tree.leaves.size() + 4);
-    for (int k = 0; k < 4; ++k) {
-      const auto at = child_corners(c, k);
-      Nodes& values = tree.leaves[children + k].values;
-      for (int i = 0; i < 3; ++i) {
-        // Corners are nodes of the parent; middles are new.
-        values[i] = k == 3             ? v[3 + i]
-                    : i == k           ? v[k]
-                    : i == (k + 1) % 3 ? v[3 + k]
-                                       : v[3 + (k + 2) % 3];
-        values[3 + i] = exact(tree.corners, (at[i] + at[(i + 1) % 3]) / 2);
-      }
-    }
-    for (int k = 0; k < 4; ++k)
-      refine(tree, children + k, child_corners(c, k), depth + 1);
-  }
-
-  // A grid with about as many cells as triangles; each lists those whose box meets it.
-  void fill_cells() {
-    if (trees_.empty()) return;
-    low_ = trees_[0].corners[0];
-    Eigen::Vector2d high = low_;
-    for (const Tree& t : trees_) {
-      for (const auto& p : t.corners) {
-        low_ = low_.cwiseMin(p);
-        high = high.cwiseMax(p);
-      }
-    }
-    side_ = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(trees_.size()))));
-    step_ = (high - low_) / side_;
-    cells_.resize(static_cast<std::size_t>(side_) * side_);
+    make_formulas(light.source_scene(), face, shadows, mesh);
+    find_triangles(mesh);
+    make_trees(request);
     for (std::size_t t = 0; t < trees_.size(); ++t) {
-      const auto& c = trees_[t].corners;
-      const auto from = cell(c[0].cwiseMin(c[1]).cwiseMin(c[2]));
-      const auto to = cell(c[0].cwiseMax(c[1]).cwiseMax(c[2]));
-      for (int y = from[1]; y <= to[1]; ++y) {
-        for (int x = from[0]; x <= to[0]; ++x)
-          cells_[y * side_ + x].push_back(static_cast<int>(t));
-      }
+      if (!trees_[t].pieces.empty()) continue;
+      trees_[t] = sampled(corners_[t], [&](const Eigen::Vector2d& p) {
+        return light.from(shadow_point_on_face(scene, face, lift(p), receiver.front))
+            .form_factor.value_or(0);
+      });
+    }
+    count();
+    grid_ = TriangleGrid(corners_);
+  }
+
+  [[nodiscard]] Point lift(const Eigen::Vector2d& p) const {
+    return frame_.origin + p.x() * frame_.x_axis + p.y() * frame_.y_axis;
+  }
+
+  [[nodiscard]] double area(const Corners& t) const {
+    const Point a = lift(t[0]);
+    return 0.5 * (lift(t[1]) - a).cross(lift(t[2]) - a).norm();
+  }
+
+  // One for each structure of the mesh's faces.
+  void make_formulas(const SourceScene& source, int face, const Shadows& shadows,
+                     const ShadowMesh& mesh) {
+    FormulaMaker maker(source, face);
+    std::map<int, int> numbers;
+    for (const ShadowMesh::Face& f : mesh.faces) {
+      const auto [it, is_new] =
+          numbers.try_emplace(f.structure, static_cast<int>(formulas_.size()));
+      if (is_new) formulas_.push_back(maker.formula(shadows.structures[f.structure]));
+      formula_of_face_.push_back(it->second);
     }
   }
 
-  [[nodiscard]] std::array<int, 2> cell(const Eigen::Vector2d& p) const {
-    std::array<int, 2> c;
-    for (int i = 0; i < 2; ++i) {
-      c[i] = std::clamp(static_cast<int>((p[i] - low_[i]) / step_[i]), 0, side_ - 1);
+  // Between a chord and its curve the formula of the one side answers where that of the
+  // other should.  On the curve the two agree, with all derivatives below the order: they
+  // differ by at most that derivative's bounds times that power of the distance.
+  [[nodiscard]] double chord_error(const MeshChord& chord) const {
+    if (chord.height == 0 || chord.left < 0 || chord.right < 0 || chord.order == 0)
+      return 0;
+    const Point from = lift(chord.from), to = lift(chord.to);
+    // No length of the plane is longer than so many times that in the frame.
+    const double height =
+        chord.height * std::hypot(frame_.x_axis.norm(), frame_.y_axis.norm());
+    // A circle around both.
+    const double radius = 0.5 * (to - from).norm() + height;
+    Eigen::Matrix<double, 3, 2> axes;
+    axes.col(0) = radius * (to - from).normalized();
+    axes.col(1) = normal_.cross(to - from).normalized() * radius;
+    double sum = 0;
+    for (const int face : {chord.left, chord.right}) {
+      const auto& formula = formulas_[formula_of_face_[face]];
+      if (!formula) return 1;
+      const Majorant bound = formula->bound(0.5 * (from + to), axes, normal_);
+      sum += bound.a[chord.order] * std::pow(height / radius, chord.order);
     }
-    return c;
+    return std::min(sum, 1.0);
+  }
+
+  void find_triangles(const ShadowMesh& mesh) {
+    const auto chords =
+        mesh_chords(mesh, kChordShare * options_.accuracy,
+                    [&](const MeshChord& chord) { return chord_error(chord); });
+    for (const MeshTriangle& t : mesh_triangles(chords)) {
+      corners_.push_back(t.corners);
+      area_ += area(t.corners);
+      chord_errors_.push_back(t.chord_error);
+      formula_.push_back(t.face < 0 ? -1 : formula_of_face_[t.face]);
+    }
+  }
+
+  void make_trees(const Request& request) {
+    trees_.resize(corners_.size());
+    const ElementCutter cutter(frame_, normal_,
+                               {options_.order, (1 - kChordShare) * options_.accuracy,
+                                options_.smallest * area_});
+    Stage stage(request, "triangles of the mesh");
+    for_each_of(0, trees_.size(), trees_.size(), request, stage, [&](std::size_t t) {
+      if (formula_[t] >= 0 && formulas_[formula_[t]])
+        trees_[t] = cutter.cut(*formulas_[formula_[t]], corners_[t]);
+    });
+  }
+
+  // Exact values at the corners, from the triangle's own side.
+  template <class Value>
+  [[nodiscard]] static ElementTree sampled(const Corners& corners, Value&& value) {
+    const Eigen::Vector2d middle = (corners[0] + corners[1] + corners[2]) / 3;
+    ElementTree tree;
+    ElementTree::Nodes nodes{};
+    for (int i = 0; i < 3; ++i)
+      nodes[i] = value(corners[i] + 0x1p-26 * (middle - corners[i]));
+    tree.pieces.push_back({PieceKind::Sampled, 0, 0, 1});
+    tree.values.push_back(nodes);
+    return tree;
+  }
+
+  void count() {
+    for (std::size_t t = 0; t < trees_.size(); ++t) count_piece(t, 0, area(corners_[t]));
+    if (area_ == 0) return;
+    statistics_.closed_form_share /= area_;
+    statistics_.above_accuracy_share /= area_;
+  }
+
+  void count_piece(std::size_t t, int at, double area) {
+    const ElementPiece& piece = trees_[t].pieces[at];
+    if (piece.kind == PieceKind::Halved) {
+      for (const int half : {0, 1}) count_piece(t, piece.next + half, area / 2);
+      return;
+    }
+    const double bound = piece.bound + chord_errors_[t];
+    ++statistics_.triangles;
+    statistics_.largest_bound = std::max(statistics_.largest_bound, bound);
+    if (piece.kind == PieceKind::ClosedForm) statistics_.closed_form_share += area;
+    if (bound > options_.accuracy) statistics_.above_accuracy_share += area;
   }
 
   [[nodiscard]] std::optional<Value> at(const Point& point) const {
-    if (trees_.empty()) return std::nullopt;
     const Eigen::Vector2d p = to_frame_ * (point - frame_.origin);
-    const auto [x, y] = cell(p);
-    // Between triangles that rounding parts the nearer one answers.
-    double best = -1e-9;
-    const Tree* found = nullptr;
-    Barycentric place;
-    for (const int t : cells_[y * side_ + x]) {
-      const Barycentric b = barycentric(trees_[t].corners, p);
-      if (!(b.minCoeff() > best)) continue;
-      best = b.minCoeff();
-      found = &trees_[t];
-      place = b;
+    auto found = grid_.find(p);
+    if (!found) return std::nullopt;
+    const ElementTree& tree = trees_[found->triangle];
+    const ElementPiece& piece = tree.find(found->place);
+    const double bound = piece.bound + chord_errors_[found->triangle];
+    if (piece.kind == PieceKind::ClosedForm) {
+      const SeenFormula& formula = *formulas_[formula_[found->triangle]];
+      return Value{formula.value(lift(p), normal_), bound};
     }
-    if (found == nullptr) return std::nullopt;
-    int leaf = 0;
-    while (found->leaves[leaf].children >= 0) {
-      const int children = found->leaves[leaf].children;
-      leaf = children + descend(place);
-    }
-    const Leaf& here = found->leaves[leaf];
-    return Value{interpolate(here.values, place, options_.order), here.estimate};
+    const int order = piece.kind == PieceKind::Sampled ? 1 : options_.order;
+    return Value{polynomial(tree.values[piece.next], found->place, order), bound};
   }
 
-  const Scene* scene_;                // while this is made
-  const BackprojectionIndex* light_;  // while this is made
   IrradianceOptions options_;
-  bool front_;
-  int face_ = -1;
   ShadowMesh::Frame frame_;
+  Eigen::Vector3d normal_;                // of the side that receives
   Eigen::Matrix<double, 2, 3> to_frame_;  // from space
-  std::vector<Tree> trees_;
-  std::atomic<std::size_t> asked_ = 0;
-  std::size_t triangles_ = 0;
-  double largest_ = 0;
-  Eigen::Vector2d low_, step_;
-  int side_ = 0;
-  std::vector<std::vector<int>> cells_;
+  std::vector<std::optional<SeenFormula>> formulas_;
+  std::vector<int> formula_of_face_;
+  // By triangle:
+  std::vector<Corners> corners_;
+  std::vector<double> chord_errors_;
+  std::vector<int> formula_;  // -1 where chords cross
+  std::vector<ElementTree> trees_;
+  double area_ = 0;  // of all
+  Statistics statistics_;
+  TriangleGrid grid_;
 };
 
 IrradianceMesh::IrradianceMesh(const Scene& scene, const BackprojectionIndex& light,
-                               const Receiver& receiver, const ShadowMesh& mesh,
-                               const IrradianceOptions& options, const Request& request)
-    : impl_(std::make_unique<Impl>(scene, light, receiver, mesh, options, request)) {}
+                               const Receiver& receiver, const Shadows& shadows,
+                               const ShadowMesh& mesh, const IrradianceOptions& options,
+                               const Request& request)
+    : impl_(std::make_unique<Impl>(scene, light, receiver, shadows, mesh, options,
+                                   request)) {}
 IrradianceMesh::~IrradianceMesh() = default;
 IrradianceMesh::IrradianceMesh(IrradianceMesh&&) noexcept = default;
 
 std::optional<IrradianceMesh::Value> IrradianceMesh::at(const Point& p) const {
   return impl_->at(p);
 }
-std::size_t IrradianceMesh::triangle_count() const { return impl_->triangles_; }
-std::size_t IrradianceMesh::exact_points() const { return impl_->asked_; }
-double IrradianceMesh::largest_estimate() const { return impl_->largest_; }
+const IrradianceMesh::Statistics& IrradianceMesh::statistics() const {
+  return impl_->statistics_;
+}
 
 }  // namespace sightline

@@ -79,6 +79,7 @@ BackprojectionIndex::BackprojectionIndex(const Scene& scene, const LightSource& 
     : impl_(std::make_unique<Impl>(scene, source, request)) {}
 BackprojectionIndex::~BackprojectionIndex() = default;
 BackprojectionIndex::BackprojectionIndex(BackprojectionIndex&&) noexcept = default;
+const SourceScene& BackprojectionIndex::source_scene() const { return impl_->source; }
 
 namespace {
 
