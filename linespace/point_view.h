@@ -18,8 +18,10 @@
 
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "linespace/request.h"
@@ -32,6 +34,15 @@ namespace internal {
 class ViewScene;
 }
 
+/// An axis-aligned box, its sides included.
+struct ViewBox {
+  ExactPosition low, high;
+};
+[[nodiscard]] ViewBox view_box(const Point& low, const Point& high);
+/// Bounds x0, y0, z0, x1, y1, z1 in the texts of viewpoint() (visibility_map.h).  Throws
+/// InvalidInput for other text, and for what PointViewIndex refuses.
+[[nodiscard]] ViewBox view_box(const std::array<std::string, 6>& bounds);
+
 /// What of a scene all its views share.  Immutable; view() may be called from several
 /// threads.  Keeps a reference to the scene.
 class PointViewIndex {
@@ -39,6 +50,24 @@ class PointViewIndex {
   /// Cost: n log n for n faces.  Of the request, budget and stop are heard; throws
   /// Stopped.
   explicit PointViewIndex(const Scene& scene, const Request& request = {});
+
+  /// The scene cut to a box, as by a section or a crop box: all its views are those of
+  /// what of the scene's faces lies in the box.  Nothing else is seen, hides, or has the
+  /// eye on it; the eye may be anywhere.  What lies in a side of the box counts as
+  /// inside; what has no area does not.  Cut exactly, in rationals.
+  /// 1. Where a side of the box ends a facet there is an edge of the map of kind Cut,
+  ///    named by the facet and the side (MapLine::box_side).  Edges of the scene in a
+  ///    side of the box keep name and kind, by the facets that are left beside them.
+  /// 2. Where a side cuts an edge of the scene the vertex is a Touch.
+  /// 3. The box has no sides to be seen and the cut no caps.  An object of which
+  ///    something is cut off is open, a sheet: its inside is no material, and through
+  ///    the cut the backs of its facets are seen (SeenFacet::front is false).  So cut
+  ///    material of a closed object is where its backs are seen.
+  /// 4. General means: for the box as it is, and eyes nearby.
+  /// Throws InvalidInput unless `low` is below `high` in each coordinate, and for
+  /// coordinates that view() refuses.  Cost: as without, and rationals for the faces
+  /// that are cut.
+  PointViewIndex(const Scene& scene, const ViewBox& box, const Request& request = {});
   ~PointViewIndex();
   PointViewIndex(PointViewIndex&&) noexcept;
 

@@ -40,11 +40,12 @@ namespace sightline {
 ///    in an event surface (in the plane of a facet, say) has views that are not general;
 ///    of these the maps are compared, and accidents that go on are no events.
 /// A path of one viewpoint has no segments.  Throws InvalidInput for a path that mixes
-/// eyes and directions, for opposite neighbouring directions, and for coordinates that
-/// PointViewIndex::view refuses.  Of the request budget and stop are heard; the precision
-/// is always Exact.
-/// Cost: a view for each event and for each suspected one; for n edges and k visible map
-/// edges met on the way, k n tests of a few nanoseconds.
+/// eyes and directions, for opposite neighbouring directions, for coordinates that
+/// PointViewIndex::view refuses, and for a scene that a box cuts.  Of the request budget
+/// and stop are heard; the precision is always Exact. The threads share parts of the
+/// path, and their number changes nothing.  Cost: a view for each event and for each
+/// suspected one; for n edges and k visible map edges met on the way, k n tests of a few
+/// nanoseconds.
 [[nodiscard]] ViewPath view_path(const PointViewIndex& index,
                                  std::span<const Viewpoint> path, bool keep_views = true,
                                  const Request& request = {});

@@ -63,14 +63,18 @@ enum class MapEdgeKind : std::uint8_t {
   Valley,      ///< the same, less than half a turn
   Boundary,    ///< of an edge of one face: on one side is seen what lies behind
   Contact,     ///< facets of different objects meet there
-  Crossing     ///< two facets cut through each other
+  Crossing,    ///< two facets cut through each other
+  Cut          ///< a side of the box that cuts the view ends a facet there
 };
 
-/// A line in space of which a map edge shows a part: an edge of the scene, or where two
-/// facets cut through each other (the smaller id first).
+/// A line in space of which a map edge shows a part: an edge of the scene; where two
+/// facets cut through each other (the smaller id first); or where a side of the box that
+/// cuts the view ends a facet (the facet, and -1).
 struct MapLine {
   int edge = -1;
-  std::array<int, 2> facets{-1, -1};  ///< of a crossing; else -1
+  std::array<int, 2> facets{-1, -1};  ///< of a crossing or a cut; else -1
+  /// Of a cut: 0 to 5 for the sides x0, y0, z0, x1, y1, z1 of the box; else -1.
+  int box_side = -1;
   friend auto operator<=>(const MapLine&, const MapLine&) = default;
 };
 
@@ -161,6 +165,7 @@ struct PointView {
   int seams;              ///< pieces of seams that are seen
 
   /// The labelled structure is the same for all eyes near by.
+  /// With a box that cuts the view: for the box as it is.
   bool general;
   /// Each with what it is made of.  Where many things are seen in one, as in a plane of
   /// many facets, which of them are told together may depend on the scene's order.

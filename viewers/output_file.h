@@ -56,12 +56,14 @@ class OutputFile {
   /// Whether both are to have the same name; two devices, or "-" twice, are not.
   [[nodiscard]] bool collides_with(const OutputFile& other) const;
 
+  /// Ends writing and frees the buffer: of many files that wait for their names this one
+  /// costs no more than a descriptor.
+  void close();
   /// Gives the file its name.  Throws WriteError when some byte could not be written.
   void commit();
 
  private:
   class Buffer;
-  void close();
 
   std::filesystem::path path_, target_, temporary_;  // as named; links followed; now
   std::unique_ptr<Buffer> buffer_;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "linespace/point_view.h"
 #include "linespace/polygon_visibility.h"
 #include "linespace/segment_transversals.h"
-#include "linespace/visibility_map.h"
 #include "viewers/json_input.h"
 
 namespace sightline::viewers {
@@ -50,6 +50,15 @@ struct ViewQuestion {
 /// The same from text "x,y,z" of an option.  Throws InvalidInput that names the option.
 [[nodiscard]] ViewQuestion view_question(Viewpoint::Kind kind, const std::string& option,
                                          const std::string& text);
+
+/// Of `look`: the box that cuts the scene.
+struct BoxQuestion {
+  ViewBox box;
+  std::array<std::string, 6> asked;  ///< the bounds as they were written
+};
+/// From text "x0,y0,z0,x1,y1,z1" of an option.  Throws InvalidInput that names it.
+[[nodiscard]] BoxQuestion box_question(const std::string& option,
+                                       const std::string& text);
 
 /// {"points": [[x, y, z], ...]} or {"directions": [...]}, at least two, coordinates as
 /// above.  Throws InvalidInput that names the element.

@@ -68,6 +68,13 @@ CASES = {
     "accident_along_edge": ("two_sheets", ["--from=0,-1,0"]),
     "corner_on_a_seam": ("before_a_seam", ["--from=1/2,-6,3/4"]),
     "edge_passing_a_joint": ("before_a_joint", ["--from=1/2,-6,3/4"]),
+    "section_of_a_box": ("box", [*OBLIQUE, "--box=-1,-1,-1,3,3,1"]),
+    "facet_in_a_side_of_the_box": ("box", [*OBLIQUE, "--box=-1,-1,2,3,3,5"]),
+    "what_is_cut_off_does_not_hide": ("stacked_boxes",
+                                      [*OBLIQUE, "--box=-1,-1,-1,9,9,1"]),
+    "crossing_facets_are_cut": ("crossing_sheets", [*OBLIQUE, "--box=-9,-9,-9,9,9,0"]),
+    "eye_in_a_solid_cut_open": ("box", ["--from=1,1,1/2", "--box=-1,-1,-1,3,3,1",
+                                        "--towards=2,1.6,0.9", "--fov=110"]),
     "hidden_accident": ("hidden_three_edges", ALONG_Y),
 }
 

@@ -172,10 +172,10 @@ bool made_by(const Scene& scene, int facet, const PathEvent& event) {
 }  // namespace
 
 std::vector<PathEvent> events_of(const Scene& scene, const PointView& at,
-                                 const PointView& before, const PointView& after) {
+                                 std::span<const Accident> before,
+                                 std::span<const Accident> after) {
   const auto goes_on = [&](const Accident& a) {
-    return std::ranges::binary_search(before.accidents, a) &&
-           std::ranges::binary_search(after.accidents, a);
+    return std::ranges::binary_search(before, a) && std::ranges::binary_search(after, a);
   };
   const std::vector<int> under = facets_under(scene, at);
   std::vector<PathEvent> events, lesser;

@@ -2,6 +2,7 @@
 
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "linespace/path/path_candidates.h"
@@ -17,11 +18,11 @@ namespace sightline::internal {
 [[nodiscard]] std::vector<int> seen_only_in(const PointView& x, const PointView& y);
 
 /// Events at an eye that is on them, seen from there: its accidents, but for those that
-/// the views before and after it have too.  What lies in the plane of a facet that is
-/// seen edge-on is a part of the facet's event.
+/// last on the way before and after it too, in ascending order.  What lies in the
+/// plane of a facet that is seen edge-on is a part of the facet's event.
 [[nodiscard]] std::vector<PathEvent> events_of(const Scene& scene, const PointView& at,
-                                               const PointView& before,
-                                               const PointView& after);
+                                               std::span<const Accident> before,
+                                               std::span<const Accident> after);
 
 /// The event that a candidate makes.
 [[nodiscard]] PathEvent event_of(const PathScene& scene, const Candidate& candidate);

@@ -1,14 +1,20 @@
 #include "linespace/path/path_walk.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "linespace/path/path_names.h"
 
 namespace sightline::internal {
 
-PathWalk::PathWalk(const PathScene& scene, const SightPath& path, const Look& look)
-    : scene_(&scene), path_(&path), look_(&look), candidates_(scene, path) {
+PathWalk::PathWalk(const PathScene& scene, const SightPath& path, const Look& look,
+                   PathRoot end)
+    : scene_(&scene),
+      path_(&path),
+      look_(&look),
+      candidates_(scene, path),
+      end_(std::move(end)) {
   now_ = look_after(here_);
 }
 
@@ -57,6 +63,37 @@ WalkViewPtr PathWalk::look_after(const PathRoot& root) {
   }
 }
 
+std::vector<Accident> PathWalk::common_accidents(const Rational& u,
+                                                 const Rational& v) const {
+  const PointView at_u = (*look_)(path_->eye(u)), at_v = (*look_)(path_->eye(v));
+  std::vector<Accident> common;
+  std::ranges::set_intersection(at_u.accidents, at_v.accidents,
+                                std::back_inserter(common));
+  return common;
+}
+
+// Those that two eyes see after the last candidate before the root.
+std::vector<Accident> PathWalk::lasting_before(const PathRoot& root,
+                                               const WalkView& view) const {
+  if (view.view.general) return {};
+  const auto& by_root = candidates_.by_root();
+  const auto it = by_root.lower_bound(root);
+  const PathRoot from =
+      it == by_root.begin() ? PathRoot(Rational(0)) : std::prev(it)->first;
+  const Rational u = between(from, root);
+  return common_accidents(u, between(PathRoot(u), root));
+}
+
+std::vector<Accident> PathWalk::lasting_after(const PathRoot& root,
+                                              const WalkView& view) const {
+  if (view.view.general) return {};
+  const auto& by_root = candidates_.by_root();
+  const auto it = by_root.upper_bound(root);
+  const PathRoot to = it == by_root.end() ? PathRoot(Rational(1)) : it->first;
+  const Rational u = between(root, to);
+  return common_accidents(between(root, PathRoot(u)), u);
+}
+
 std::vector<PathEvent> PathWalk::name(
     const PathCandidates::ByRoot::value_type& candidates, const WalkView& before,
     const WalkView& after) const {
@@ -64,7 +101,7 @@ std::vector<PathEvent> PathWalk::name(
   std::vector<PathEvent> events;
   if (root.is_rational()) {
     events = events_of(scene_->scene().scene(), (*look_)(path_->eye(root.rational())),
-                       before.view, after.view);
+                       lasting_before(root, before), lasting_after(root, after));
   }
   if (!events.empty()) return events;
   for (const bool sure : {true, false}) {
@@ -82,7 +119,8 @@ std::vector<PathEvent> PathWalk::name(
 
 std::optional<WalkStep> PathWalk::next() {
   const auto& by_root = candidates_.by_root();
-  for (auto it = by_root.upper_bound(here_); it != by_root.end(); ++it) {
+  for (auto it = by_root.upper_bound(here_); it != by_root.end() && it->first <= end_;
+       ++it) {
     here_ = it->first;
     if (!may_change(*it, *now_)) continue;
     const WalkViewPtr after = look_after(here_);

@@ -54,13 +54,22 @@ struct WalkStep {
 
 class PathWalk {
  public:
-  /// Keeps references to the three.
-  PathWalk(const PathScene& scene, const SightPath& path, const Look& look);
+  /// Goes up to `end` on the path, changes there included.  Keeps references to the other
+  /// three.
+  PathWalk(const PathScene& scene, const SightPath& path, const Look& look, PathRoot end);
 
   /// The view just after the beginning.
   [[nodiscard]] WalkViewPtr first() const { return now_; }
-  /// Goes on to the next change; nullopt: the structure stays up to the segment's end.
+  /// Goes on to the next change; nullopt: the structure stays up to the end.
   std::optional<WalkStep> next();
+
+  /// Of a view that holds up to, or after, a root: the accidents that go on up to there,
+  /// or from there on.  The eye of the view itself may be far off, where other things
+  /// lined up that changed nothing; or only there.
+  [[nodiscard]] std::vector<Accident> lasting_before(const PathRoot& root,
+                                                     const WalkView& view) const;
+  [[nodiscard]] std::vector<Accident> lasting_after(const PathRoot& root,
+                                                    const WalkView& view) const;
 
  private:
   struct Looked {
@@ -69,6 +78,8 @@ class PathWalk {
   };
   [[nodiscard]] Looked look_between(const PathRoot& from, const PathRoot& to) const;
   [[nodiscard]] WalkViewPtr look_after(const PathRoot& root);
+  [[nodiscard]] std::vector<Accident> common_accidents(const Rational& u,
+                                                       const Rational& v) const;
   [[nodiscard]] bool may_change(const PathCandidates::ByRoot::value_type& candidates,
                                 const WalkView& view) const;
   [[nodiscard]] std::vector<PathEvent> name(
@@ -79,7 +90,7 @@ class PathWalk {
   const SightPath* path_;
   const Look* look_;
   PathCandidates candidates_;
-  PathRoot here_{Rational(0)};
+  PathRoot here_{Rational(0)}, end_;
   WalkViewPtr now_;
 };
 

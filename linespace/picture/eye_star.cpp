@@ -26,10 +26,10 @@ EyeStar::EyeStar(const EyeSpace& eye) : eye_(&eye) {
 }
 
 bool EyeStar::holds(int face) const {
-  if (eye_->front(face) != Sign::Zero) return false;
   const ViewScene& scene = eye_->scene();
+  if (eye_->front(face) != Sign::Zero || scene.corners(face).empty()) return false;
   const ExactPoint normal = normal_of(scene, face);
-  const auto corners = scene.scene().face_points(face);
+  const auto corners = scene.corners(face);
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const ExactPoint p = scene.exact(corners[k]);
     const ExactPoint q = scene.exact(corners[(k + 1) % corners.size()]);
@@ -63,7 +63,8 @@ void EyeStar::find_faces() {
     const std::span<const int> around =
         facet.planar ? std::span(facet.faces) : std::span(&f, 1);
     for (const int g : around) {
-      for (int k = 0; k < scene.scene().faces()[g].corner_count; ++k) {
+      const int sides = static_cast<int>(scene.corners(g).size());
+      for (int k = 0; k < sides; ++k) {
         if (const int line = scene.line_of_side(g, k); line >= 0) sides_.push_back(line);
       }
     }
@@ -80,7 +81,7 @@ void EyeStar::find_place() {
     return;
   }
   for (const int f : faces_) {
-    for (const int p : scene.scene().face_points(f)) {
+    for (const int p : scene.corners(f)) {
       if (scene.exact(p) != eye_->eye() ||
           !std::ranges::binary_search(scene.scene().corners(), p)) {
         continue;

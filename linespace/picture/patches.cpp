@@ -69,12 +69,11 @@ bool hang_together(const Scene& scene, int f, int h) {
   return true;
 }
 
-std::vector<int> find_patches(const Silhouettes& g) {
+std::vector<int> find_patches(const Silhouettes& g,
+                              const std::function<bool(int object)>& is_sheet) {
   const Scene& scene = g.scene();
   Classes classes(2 * scene.facets().size());
-  const auto sheet = [&](int facet) {
-    return !scene.objects()[scene.facets()[facet].object].closed;
-  };
+  const auto sheet = [&](int facet) { return is_sheet(scene.facets()[facet].object); };
   for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
     hear_stop();
     const int facet = scene.faces()[f].facet;

@@ -37,6 +37,14 @@ PicturePoint::PicturePoint(const EyeSpace& eye, int line, const LineCut& cut)
   long double norm = 1;
   if (!eye.is_direction()) norm = std::sqrt(dot(w, w));
   error_ += (cut.error * length + 0x1p-60L * size) / norm;
+  // On a line that passes very near the eye all cancels: the vector would be any.
+  constexpr long double kUsable = 0x1p-20L;
+  if (error_ < kUsable || thread_precision == Precision::Double) return;
+  const ExactPoint& x = exact();
+  const Rational longest = std::max({abs(x[0]), abs(x[1]), abs(x[2])});
+  if (longest == 0) return;
+  for (int i = 0; i < 3; ++i) w[i] = long_double(Rational(x[i] / longest));
+  set(w, 0x1p-60L);
 }
 
 PicturePoint::PicturePoint(const EyeSpace& eye, const ExactPoint& vector)

@@ -13,13 +13,16 @@
 
 namespace sightline::internal {
 
-SharedViewScene::SharedViewScene(const Scene& scene, const Request& request)
+SharedViewScene::SharedViewScene(const Scene& scene, const std::optional<BoxCut>& box,
+                                 const Request& request)
     : scene_(&scene), silhouettes_(scene, EventMode::Solid, request), solids_(scene) {
   Stage stage(request, "what views share");
   add_lines();
-  add_crossings();
+  cut_and_cross(box);
   find_whole_lines();
-  patches_ = find_patches(silhouettes_);
+  patches_ = find_patches(silhouettes_, [&](int object) {
+    return !scene.objects()[object].closed || (cut_ && cut_->is_open(object));
+  });
 }
 
 void SharedViewScene::add_lines() {
@@ -53,28 +56,35 @@ void SharedViewScene::add_lines() {
   }
 }
 
-void SharedViewScene::add_crossings() {
+void SharedViewScene::cut_and_cross(const std::optional<BoxCut>& box) {
   const FaceCrossings crossings(silhouettes_);
+  // Points of the scene at which others may be constructed.
+  PointNumbers numbers(*scene_, constructed_);
+  for (int p = 0; p < static_cast<int>(scene_->points().size()); ++p) {
+    bool may_meet = !crossings.empty();
+    for (int side = 0; box && side < BoxCut::kSides; ++side)
+      may_meet |= box->within(side, scene_->point(p)) == Sign::Zero;
+    if (may_meet) numbers.add(*scene_, p);
+  }
+  if (box) cut_.emplace(*scene_, *box, side_lines_, numbers, lines_);
+  add_crossings(crossings, numbers);
+}
+
+void SharedViewScene::add_crossings(const FaceCrossings& crossings,
+                                    PointNumbers& numbers) {
   const std::size_t n = scene_->faces().size();
   std::vector<std::vector<int>> of_face(crossings.empty() ? 0 : n);
-  std::map<ExactPoint, int> numbers;
-  const auto number = [&](const ExactPoint& p) {
-    const auto [it, is_new] = numbers.emplace(p, point_count());
-    if (is_new) constructed_.push_back(p);
-    return it->second;
-  };
-  if (!crossings.empty()) {
-    for (int p = 0; p < static_cast<int>(scene_->points().size()); ++p) {
-      numbers.emplace(exact_point(scene_->point(p)), p);
-    }
-  }
   crossing_starts_.assign(n + 1, 0);
   for (std::uint32_t i = 0; i < crossings.count(); ++i) {
     const FaceCrossing& c = crossings.at(i);
+    std::optional segment(c.segment);
+    // In a side of the box the two faces end, and do not cross any more.
+    if (cut_) segment = cut_->box().clip(c.segment);
+    if (!segment || (cut_ && cut_->box().in_a_side(*segment))) continue;
     const auto facets =
         std::minmax(scene_->faces()[c.f].facet, scene_->faces()[c.h].facet);
     const int line = static_cast<int>(lines_.size());
-    std::array<int, 2> ends{number(c.segment[0]), number(c.segment[1])};
+    std::array<int, 2> ends{numbers.of((*segment)[0]), numbers.of((*segment)[1])};
     lines_.push_back({ends, {-1, {facets.first, facets.second}}, {c.f, c.h}});
     of_face[c.f].push_back(line);
     of_face[c.h].push_back(line);
@@ -88,14 +98,17 @@ void SharedViewScene::add_crossings() {
 }
 
 void SharedViewScene::find_whole_lines() {
+  const auto is_left = [&](int line) { return lines_[line].ends[0] >= 0; };
   std::vector<Box> boxes;
-  for (const ViewLine& line : lines_) {
-    boxes.push_back(box_of(std::array{position(line.ends[0]), position(line.ends[1])}));
+  for (int line = 0; line < static_cast<int>(lines_.size()); ++line) {
+    const auto [a, b] = lines_[line].ends;
+    boxes.push_back(is_left(line) ? box_of(std::array{position(a), position(b)}) : Box{});
   }
   const Bvh tree(boxes);
   Classes classes(lines_.size());
   for (int line = 0; line < static_cast<int>(lines_.size()); ++line) {
     hear_stop();
+    if (!is_left(line)) continue;
     for (const int end : lines_[line].ends) {
       const Point p = position(end);
       // Where points are constructed boxes are rounded, too.
@@ -108,6 +121,7 @@ void SharedViewScene::find_whole_lines() {
       };
       tree.traverse(holds, [&](std::uint32_t item) {
         const int other = static_cast<int>(item);
+        if (!is_left(other)) return;
         if (other < line && holds(boxes[item]) && on_one_line(line, other))
           classes.join(line, other);
         if (other > line && holds(boxes[item]) && on_one_line(other, line))
@@ -138,7 +152,16 @@ Sign SharedViewScene::plane_side(int face, int point) const {
 }
 
 std::vector<int> SharedViewScene::material_at(const ExactPoint& p) const {
-  return internal::material_at(*scene_, solids_, p);
+  std::vector<int> objects = internal::material_at(*scene_, solids_, p);
+  if (cut_) std::erase_if(objects, [&](int object) { return cut_->is_open(object); });
+  return objects;
+}
+
+bool SharedViewScene::has_one_facet(int line) const {
+  const int edge = lines_[line].name.edge;
+  if (edge < 0) return false;
+  return scene_->edges()[edge].sides.size() == 1 ||
+         (cut_ && cut_->leaves_one_facet(edge));
 }
 
 bool SharedViewScene::in_line(int a, int b, int p) const {

@@ -5,37 +5,43 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "linespace/numbers/rational.h"
+#include "linespace/picture/cut_faces.h"
+#include "linespace/picture/view_line.h"
 #include "linespace/scene/solid_index.h"
 #include "linespace/silhouettes/silhouettes.h"
-#include "linespace/visibility_map.h"
 
 namespace sightline::internal {
 
-/// A segment in space beside which something else may be seen on either side: an edge of
-/// the scene, a side between two faces of one facet that is bent there by rounding, or a
-/// segment in which two faces cut through each other.
-struct ViewLine {
-  std::array<int, 2> ends;  ///< point numbers, as ViewScene counts them
-  MapLine name;
-  /// Of a crossing: the two faces; else -1.
-  std::array<int, 2> crossing{-1, -1};
-};
+class FaceCrossings;
 
 /// What is computed once for a scene.  Immutable.  Keeps a reference to the scene.
 class SharedViewScene {
  public:
-  SharedViewScene(const Scene& scene, const Request& request);
+  /// With a box: as if the scene were what of its faces lies in it.
+  SharedViewScene(const Scene& scene, const std::optional<BoxCut>& box,
+                  const Request& request);
 
   [[nodiscard]] const Scene& scene() const { return *scene_; }
   [[nodiscard]] const Silhouettes& silhouettes() const { return silhouettes_; }
   /// Closed objects in whose material the point lies strictly (silhouettes/rooms.h),
-  /// ascending.
+  /// ascending.  An object that a box cuts open has none.
   [[nodiscard]] std::vector<int> material_at(const ExactPoint& p) const;
+  [[nodiscard]] bool in_material(const ExactPoint& p) const {
+    return cut_ ? !material_at(p).empty() : silhouettes_.in_material(p);
+  }
 
+  /// What the box leaves; nullptr without one.
+  [[nodiscard]] const CutFaces* cut() const { return cut_ ? &*cut_ : nullptr; }
+  /// Corners of a face; of a face that a box cuts, those of what is left, and none where
+  /// that has no area.
+  [[nodiscard]] std::span<const int> corners(int face) const {
+    return cut_ ? cut_->corners(face) : scene_->face_points(face);
+  }
   [[nodiscard]] std::span<const ViewLine> lines() const { return lines_; }
   /// The smallest number of all lines that continue this one straight on, with no gap, by
   /// whatever object.
@@ -43,8 +49,11 @@ class SharedViewScene {
   /// The line on which the side of a face from its corner k to the next lies; -1 where
   /// the face goes on in the same plane.
   [[nodiscard]] int line_of_side(int face, int k) const {
-    return side_lines_[scene_->faces()[face].first_corner + k];
+    return cut_ ? cut_->line_of_side(face, k)
+                : side_lines_[scene_->faces()[face].first_corner + k];
   }
+  /// The line is an edge of the scene beside which one facet lies.
+  [[nodiscard]] bool has_one_facet(int line) const;
   /// Crossings of a face with others, as line numbers.
   [[nodiscard]] std::span<const int> crossings_of(int face) const;
 
@@ -86,7 +95,8 @@ class SharedViewScene {
 
  private:
   void add_lines();
-  void add_crossings();
+  void cut_and_cross(const std::optional<BoxCut>& box);
+  void add_crossings(const FaceCrossings& crossings, PointNumbers& numbers);
   void find_whole_lines();
 
   const Scene* scene_;
@@ -97,6 +107,7 @@ class SharedViewScene {
   std::vector<int> crossing_starts_, crossing_lines_;  // by face
   std::vector<int> edge_starts_, edge_ids_;            // by object
   std::vector<ExactPoint> constructed_;
+  std::optional<CutFaces> cut_;
   std::vector<int> patches_;
 };
 
@@ -119,7 +130,9 @@ class ViewLines {
 class ViewScene {
  public:
   ViewScene(const Scene& scene, const Request& request)
-      : shared_(std::make_shared<SharedViewScene>(scene, request)) {}
+      : ViewScene(scene, std::nullopt, request) {}
+  ViewScene(const Scene& scene, const std::optional<BoxCut>& box, const Request& request)
+      : shared_(std::make_shared<SharedViewScene>(scene, box, request)) {}
   /// The same scene, seen through a polygon: its corners are the last points, its sides
   /// the last lines.
   [[nodiscard]] ViewScene with_window(std::span<const Point> corners) const;
@@ -132,6 +145,16 @@ class ViewScene {
   [[nodiscard]] const Silhouettes& silhouettes() const { return shared_->silhouettes(); }
   [[nodiscard]] std::vector<int> material_at(const ExactPoint& p) const {
     return shared_->material_at(p);
+  }
+  [[nodiscard]] bool in_material(const ExactPoint& p) const {
+    return shared_->in_material(p);
+  }
+  [[nodiscard]] const CutFaces* cut() const { return shared_->cut(); }
+  [[nodiscard]] std::span<const int> corners(int face) const {
+    return shared_->corners(face);
+  }
+  [[nodiscard]] bool has_one_facet(int line) const {
+    return shared_->has_one_facet(line);
   }
   [[nodiscard]] ViewLines lines() const { return {shared_->lines(), added_lines_}; }
   /// Number of the first line of the window; lines().size() where there is none.

@@ -53,7 +53,7 @@ Rational side_value(const EyeSpace& eye, int p, int q, const ExactPoint& x) {
 }  // namespace
 
 bool contains(const EyeSpace& eye, int face, const PictureRay& ray) {
-  const auto corners = eye.scene().scene().face_points(face);
+  const auto corners = eye.scene().corners(face);
   const Sign front = eye.front(face);
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const int p = corners[k];

@@ -32,13 +32,16 @@ std::vector<FurtherLine> seam_lines(const EyeSpace& eye, const ViewGraph& graph,
 }
 
 std::vector<FurtherLine> hidden_lines(const EyeSpace& eye, const EyeStar& star) {
-  const std::vector<std::uint8_t> all(eye.scene().scene().faces().size(), 1);
+  std::vector<std::uint8_t> all;
+  for (int f = 0; f < static_cast<int>(eye.scene().scene().faces().size()); ++f)
+    all.push_back(eye.scene().corners(f).empty() ? 0 : 1);
   const Window window(eye);
   LineViewer viewer(eye, star, window, all);
   std::vector<FurtherLine> lines;
   for (int l = 0; l < eye.scene().first_window_line(); ++l) {
     hear_stop();
-    if (eye.scene().lines()[l].name.edge < 0) continue;
+    const ViewLine& line = eye.scene().lines()[l];
+    if (line.name.edge < 0 || line.ends[0] < 0) continue;
     for (const auto& [from, to] : viewer.hidden_parts(l)) {
       const PicturePoint p(eye, l, from), q(eye, l, to);
       lines.push_back(piece(eye, FurtherLine::Kind::Hidden, l, {&p, &q}));

@@ -152,7 +152,7 @@ void LineViewer::find_faces(int line) {
 // Of a face that has both ends of the line as neighbouring corners.
 std::optional<LineViewer::Cover> LineViewer::own_side(int line, int face) const {
   const auto [a, b] = eye_->scene().lines()[line].ends;
-  const auto corners = eye_->scene().scene().face_points(face);
+  const auto corners = eye_->scene().corners(face);
   const std::size_t n = corners.size();
   for (std::size_t k = 0; k < n; ++k) {
     const int p = corners[k];
@@ -169,7 +169,7 @@ std::optional<LineViewer::Cover> LineViewer::own_side(int line, int face) const 
 std::optional<LineViewer::Cover> LineViewer::overlap(int line, int face,
                                                      const LineCuts& cuts) {
   const auto [a, b] = eye_->scene().lines()[line].ends;
-  const auto corners = eye_->scene().scene().face_points(face);
+  const auto corners = eye_->scene().corners(face);
   const std::size_t n = corners.size();
 
   // On which sides of the line the face is seen.
@@ -246,14 +246,14 @@ bool LineViewer::narrow_to_face(Cover& cover, int face, const LineCuts& cuts,
 // Of faces that contain the line and are on one side of it, those seen just beside it.
 SeenBeside LineViewer::nearest(std::span<const int> faces, int line, bool left) const {
   const auto [a, b] = eye_->scene().lines()[line].ends;
-  const Scene& scene = eye_->scene().scene();
+  const ViewScene& scene = eye_->scene();
   const Sign side = left ? Sign::Positive : Sign::Negative;
   // A point of the face that is seen beside the line.
   const auto beside = [&](int face) {
-    for (const int c : scene.face_points(face)) {
+    for (const int c : scene.corners(face)) {
       if (eye_->orient(a, b, c) == side) return c;
     }
-    return scene.face_points(face)[0];
+    return scene.corners(face)[0];
   };
   SeenBeside seen;
   for (const int face : faces) {

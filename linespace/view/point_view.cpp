@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "linespace/numbers/exact_position.h"
 #include "linespace/picture/view_scene.h"
 #include "linespace/view/further_lines.h"
 #include "linespace/view/line_view.h"
@@ -18,13 +19,46 @@ namespace sightline {
 
 using namespace internal;
 
+namespace {
+
+BoxCut box_cut(const ViewBox& box) {
+  for (const ExactPosition* corner : {&box.low, &box.high}) {
+    for (const double x : corner->nearest) {
+      if (!is_admissible(x))
+        throw InvalidInput("the box: a coordinate outside [2^-140, 2^140]");
+    }
+  }
+  return {exact_point(box.low), exact_point(box.high)};
+}
+
+}  // namespace
+
+ViewBox view_box(const Point& low, const Point& high) {
+  return {eye_at(low).at, eye_at(high).at};
+}
+
+ViewBox view_box(const std::array<std::string, 6>& bounds) {
+  const auto corner = [&](int first) {
+    return viewpoint(Viewpoint::Kind::Eye,
+                     {bounds[first], bounds[first + 1], bounds[first + 2]})
+        .at;
+  };
+  ViewBox box{corner(0), corner(3)};
+  (void)box_cut(box);
+  return box;
+}
+
 struct PointViewIndex::Impl {
-  Impl(const Scene& s, const Request& request) : scene(s, request) {}
+  Impl(const Scene& s, const std::optional<BoxCut>& box, const Request& request)
+      : scene(s, box, request) {}
   ViewScene scene;
 };
 
 PointViewIndex::PointViewIndex(const Scene& scene, const Request& request)
-    : impl_(std::make_unique<Impl>(scene, request)) {}
+    : impl_(std::make_unique<Impl>(scene, std::nullopt, request)) {}
+PointViewIndex::PointViewIndex(const Scene& scene, const ViewBox& box,
+                               const Request& request)
+    : impl_(std::make_unique<Impl>(scene, box_cut(box), request)) {}
 PointViewIndex::~PointViewIndex() = default;
 PointViewIndex::PointViewIndex(PointViewIndex&&) noexcept = default;
 
@@ -44,7 +78,8 @@ std::vector<int> lines_to_ask(const ViewScene& scene, const EyeStar& star,
     lines.push_back(static_cast<int>(l));
   for (int f = 0; f < static_cast<int>(possibly_seen.size()); ++f) {
     if (possibly_seen[f] == 0) continue;
-    for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
+    const int sides = static_cast<int>(scene.corners(f).size());
+    for (int k = 0; k < sides; ++k) {
       if (const int line = scene.line_of_side(f, k); line >= 0) lines.push_back(line);
     }
     for (const int line : scene.crossings_of(f)) lines.push_back(line);

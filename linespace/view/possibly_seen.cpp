@@ -41,7 +41,7 @@ class Culler {
                    const Box& around);
   [[nodiscard]] bool draw_object(int object);
   [[nodiscard]] Eigen::Vector3d local(const Side& side, int point) const {
-    return side.axes * (eye_->scene().scene().point(point) - origin_);
+    return side.axes * (eye_->scene().position(point) - origin_);
   }
   [[nodiscard]] std::optional<PictureFunction> side_function(const Side& side, int p,
                                                              int q) const;
@@ -177,7 +177,8 @@ bool Culler::beyond_window(const Box& box) const {
 }
 
 bool Culler::hidden(const Box& box) const {
-  if (beyond_window(box)) return true;
+  const CutFaces* const cut = eye_->scene().cut();
+  if ((cut != nullptr && cut->box().misses(box)) || beyond_window(box)) return true;
   for (std::size_t s = 0; s < sides_.size(); ++s) {
     const auto filled = fill(sides_[s], box);
     if (filled && !rasters_[s].hides(filled->rect, filled->depth)) return false;
@@ -249,6 +250,7 @@ void Culler::draw_convex(std::span<const std::array<int, 2>> sides,
 // a facet that rounding bends sees the fold as a part of it.
 bool Culler::draw_object(int object) {
   const ViewScene& scene = eye_->scene();
+  if (scene.cut() != nullptr && scene.cut()->is_open(object)) return false;
   std::vector<std::array<int, 2>> outline;
   std::vector<int> front;
   for (const int f : scene.scene().objects()[object].faces) {
@@ -288,10 +290,15 @@ void Culler::draw_face(int face) {
     sides.push_back(front == Sign::Positive ? std::array{p, q} : std::array{q, p});
   };
   const auto outline = scene.silhouettes().facet_outline(f.facet);
-  if (!outline.empty() && scene.scene().facets()[f.facet].planar) {
+  const Facet& facet = scene.scene().facets()[f.facet];
+  const bool is_whole =
+      scene.cut() == nullptr || std::ranges::all_of(facet.faces, [&](int other) {
+        return scene.cut()->is_whole(other);
+      });
+  if (!outline.empty() && facet.planar && is_whole) {
     if (drawn_facets_[f.facet]++ != 0) return;
     Box around = scene.silhouettes().face_box(face);
-    for (const int other : scene.scene().facets()[f.facet].faces) {
+    for (const int other : facet.faces) {
       const Box& box = scene.silhouettes().face_box(other);
       for (int i = 0; i < 3; ++i) {
         around.min[i] = std::min(around.min[i], box.min[i]);
@@ -302,7 +309,7 @@ void Culler::draw_face(int face) {
     draw_convex(sides, std::span(&face, 1), around);
     return;
   }
-  const auto corners = scene.scene().face_points(face);
+  const auto corners = scene.corners(face);
   for (std::size_t k = 0; k < corners.size(); ++k) {
     turned(corners[k], corners[(k + 1) % corners.size()]);
   }
@@ -333,7 +340,10 @@ std::vector<std::uint8_t> Culler::cull() {
     if (node.count > 0) {
       for (std::uint32_t i = 0; i < node.count; ++i) {
         const int face = static_cast<int>(tree.items()[node.first + i]);
-        if (hidden(eye_->scene().silhouettes().face_box(face))) continue;
+        if (eye_->scene().corners(face).empty() ||
+            hidden(eye_->scene().silhouettes().face_box(face))) {
+          continue;
+        }
         seen[face] = 1;
         draw_face(face);
       }
@@ -353,10 +363,11 @@ std::vector<std::uint8_t> possibly_seen(const EyeSpace& eye) {
   const std::size_t n = eye.scene().scene().faces().size();
   // In small scenes the rasters would cost more than they save.
   constexpr std::size_t kSmall = 200;
-  if (n < kSmall) {
-    return std::vector<std::uint8_t>(n, 1);
-  }
-  return Culler(eye).cull();
+  if (n >= kSmall) return Culler(eye).cull();
+  std::vector<std::uint8_t> seen(n, 1);
+  for (std::size_t f = 0; f < n && eye.scene().cut() != nullptr; ++f)
+    seen[f] = eye.scene().corners(static_cast<int>(f)).empty() ? 0 : 1;
+  return seen;
 }
 
 }  // namespace sightline::internal

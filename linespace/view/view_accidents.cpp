@@ -85,7 +85,7 @@ void PointInspector::add_line(int line) {
 
 void PointInspector::find_lines() {
   for (const int face : faces_near(*eye_, at_, possibly_seen_)) {
-    const auto corners = eye_->scene().scene().face_points(face);
+    const auto corners = eye_->scene().corners(face);
     const Sign front = eye_->front(face);
     bool within = true;
     for (std::size_t k = 0; k < corners.size() && within; ++k) {
@@ -220,7 +220,7 @@ Accident PointInspector::name() const {
         found.generators.push_back({GeneratorKind::Edge, line.edge});
       } else {
         for (const int f : line.facets)
-          found.generators.push_back({GeneratorKind::Face, f});
+          if (f >= 0) found.generators.push_back({GeneratorKind::Face, f});
       }
     }
   }
@@ -305,11 +305,10 @@ class EdgeOnFace {
   static Rational size(const ExactPoint& v) { return abs(v[0]) + abs(v[1]) + abs(v[2]); }
 
   [[nodiscard]] ExactPoint centroid() const {
-    const Scene& scene = eye_->scene().scene();
-    const auto corners = scene.face_points(face_);
+    const auto corners = eye_->scene().corners(face_);
     ExactPoint sum{};
     for (const int c : corners) {
-      const ExactPoint p = exact_point(scene.point(c));
+      const ExactPoint p = eye_->scene().exact(c);
       for (int i = 0; i < 3; ++i) sum[i] += p[i];
     }
     for (Rational& x : sum) x /= static_cast<int>(corners.size());
@@ -329,7 +328,7 @@ class EdgeOnFace {
                              const ExactPoint& off) const {
     ExactPoint over = point;
     for (int i = 0; i < 3; ++i) over[i] += off[i];
-    if (eye_->scene().silhouettes().in_material(over)) return false;
+    if (eye_->scene().in_material(over)) return false;
     const auto [a, b] = eye_->scene().lines()[line].ends;
     ExactPoint left = exact_cross(eye_->exact_vector(a), eye_->exact_vector(b));
     if (exact_dot(left, eye_->vector_to(over)) < 0) {
@@ -362,7 +361,8 @@ void find_edge_on(const EyeSpace& eye, LineViewer& viewer,
     if (possibly_seen[f] == 0 || eye.front(f) != Sign::Zero) continue;
     hear_stop();
     const int facet = scene.scene().faces()[f].facet;
-    for (int k = 0; k < scene.scene().faces()[f].corner_count; ++k) {
+    const int sides = static_cast<int>(scene.corners(f).size());
+    for (int k = 0; k < sides; ++k) {
       const int line = scene.line_of_side(f, k);
       if (line < 0) continue;
       if (eye.end_on(line)) {

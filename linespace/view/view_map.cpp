@@ -233,16 +233,17 @@ MapEdgeKind MapMaker::kind(int edge) const {
   const ViewScene& scene = eye_->scene();
   const ViewLine& line = scene.lines()[graph_->edges[edge].line];
   const auto [left, right] = graph_->edges[edge].faces;
+  if (line.name.box_side >= 0) return MapEdgeKind::Cut;
   if (line.crossing[0] >= 0 && left >= 0 && right >= 0) return MapEdgeKind::Crossing;
   if (left < 0 || right < 0) {
-    const bool one_face =
-        line.name.edge >= 0 && scene.scene().edges()[line.name.edge].sides.size() == 1;
-    return one_face ? MapEdgeKind::Boundary : MapEdgeKind::Silhouette;
+    const bool one_facet =
+        line.name.edge >= 0 && scene.has_one_facet(graph_->edges[edge].line);
+    return one_facet ? MapEdgeKind::Boundary : MapEdgeKind::Silhouette;
   }
   if (!share_object(edge)) return MapEdgeKind::Contact;
   // A point of the right face, seen on the right of the edge: on the eye's side of the
   // left face's plane it makes a valley.
-  for (const int c : scene.scene().face_points(right)) {
+  for (const int c : scene.corners(right)) {
     if (eye_->orient(line.ends[0], line.ends[1], c) != Sign::Negative) continue;
     return eye_->before(left, c) == Sign::Positive ? MapEdgeKind::Valley
                                                    : MapEdgeKind::Crease;

@@ -36,6 +36,16 @@ struct Sum {
   std::vector<int> half_edges;  // of the boundary
 };
 
+// Of three points nearly on one great circle around the eye, the angle 2 atan2(det, rest)
+// is not known well from long doubles.  Where two are nearly opposite both numbers
+// vanish; and where the three go round the eye, as those of a face do that the eye is
+// very near to, `rest` is negative, and the sign of `det`, which is off by some 2^-60,
+// tells one half of all directions from the other.
+bool is_doubtful(long double det, long double rest) {
+  return std::max(std::abs(det), std::abs(rest)) < 0x1p-12L ||
+         (rest < 0 && std::abs(det) < 0x1p-50L);
+}
+
 class Measurer {
  public:
   Measurer(const EyeSpace& eye, const ViewGraph& graph) : eye_(&eye), graph_(&graph) {
@@ -56,8 +66,7 @@ class Measurer {
     }
     // Its solid angle (van Oosterom and Strackee, 1983).
     const long double rest = 1 + r.dot(u) + u.dot(v) + v.dot(r);
-    // Where three points lie nearly on one great circle around the eye, both vanish.
-    sum.value += std::max(std::abs(det), std::abs(rest)) < 0x1p-12L
+    sum.value += is_doubtful(det, rest)
                      ? accurate_angle(graph_->points[*sum.reference].exact(), from, to)
                      : 2 * std::atan2(det, rest);
   }
@@ -79,9 +88,8 @@ class Measurer {
       const LongEigen &u = points_[from], &v = points_[to];
       const long double det = r.dot(u.cross(v));
       const long double rest = 1 + r.dot(u) + u.dot(v) + v.dot(r);
-      sum += std::max(std::abs(det), std::abs(rest)) < 0x1p-12L
-                 ? accurate_angle(exact_r, from, to)
-                 : 2 * std::atan2(det, rest);
+      sum += is_doubtful(det, rest) ? accurate_angle(exact_r, from, to)
+                                    : 2 * std::atan2(det, rest);
     }
     return sum;
   }

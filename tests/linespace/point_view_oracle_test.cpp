@@ -2,18 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
+#include "tests/support/setting.h"
 #include "tests/support/view_comparison.h"
 
 namespace sightline::testing {
 namespace {
-
-/// A number of the environment, for other runs.
-int setting(const char* name, int otherwise) {
-  const char* text = std::getenv(name);
-  return text == nullptr ? otherwise : std::atoi(text);
-}
 
 void expect_equal(const ViewRun& run) {
   for (const std::string& report : compare_views(run)) ADD_FAILURE() << report;
@@ -35,6 +28,16 @@ TEST(PointViewOracle, LargeScenes) {
                 .general = false,
                 .large = true,
                 .on_scene = setting("SIGHTLINE_VIEW_ON_SCENE", 1) != 0});
+}
+
+// From as near a plane, a line or a point as numbers come, and nearer.
+TEST(PointViewOracle, EyesAndDirectionsBarelyOffPlanes) {
+  expect_equal({.eyes = setting("SIGHTLINE_VIEW_EYES", 3),
+                .seed = static_cast<std::uint64_t>(setting("SIGHTLINE_VIEW_SEED", 4)),
+                .general = false,
+                .every = setting("SIGHTLINE_VIEW_EVERY", 2),
+                .barely_off = true,
+                .most_reports = setting("SIGHTLINE_VIEW_REPORTS", 10)});
 }
 
 // SIGHTLINE_VIEW_EVERY: of how many scenes one.

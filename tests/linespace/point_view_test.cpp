@@ -37,6 +37,33 @@ void expect_euler(const PointView& view) {
             1 + view.components);
 }
 
+// Seen from 2^-71 before a triangle of size 1 it fills half of all directions, and not
+// the other half: det(r, u, v) is smaller than what long doubles of the three keep.
+TEST(PointView, ATriangleVeryNearIsHalfOfAllDirections) {
+  PolygonSoup soup;
+  soup.vertices = {{1.107421875, 2.1962890625, 0.52490234375},
+                   {1.740478515625, 1.48779296875, 0.742919921875},
+                   {1.346923828125, 1.79248046875, 1.19921875},
+                   {1.47216796875, 1.40771484375, 1.146728515625},
+                   {1.951416015625, 1.501953125, 1.7060546875},
+                   {2.04296875, 2.63671875, 1.231201171875}};
+  soup.polygons = {{0, 1, 2}, {3, 4, 5}};
+  soup.groups = {{"near", {0}}, {"other", {1}}};
+  const Scene scene(soup);
+  const PointView view = PointViewIndex(scene).view(viewpoint(
+      Viewpoint::Kind::Eye, {"18545679150323626672079/14462247353788288466944",
+                             "227608610517979123155287/115697978830306307735552",
+                             "12067052927967563874297/16528282690043758247936"}));
+  ASSERT_FALSE(view.facets.empty());
+  EXPECT_NEAR(view.facets[0].measure, 2 * std::numbers::pi, 1e-12);
+  double sum = 0;
+  for (const MapRegion& region : view.regions) {
+    EXPECT_GT(region.measure.value(), 0);
+    sum += region.measure.value();
+  }
+  EXPECT_NEAR(sum, 4 * std::numbers::pi, 1e-12);
+}
+
 TEST(PointView, CubeFromACorner) {
   const Scene scene(testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}}));
   const PointViewIndex index(scene);

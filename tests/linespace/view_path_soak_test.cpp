@@ -1,15 +1,21 @@
 // Events on 10^4 random paths.
+//
+// SIGHTLINE_PATHS: paths a scene and test, to run a share of these, or more;
+// SIGHTLINE_PATH_SEED: added to the seeds.
 
 #include <gtest/gtest.h>
 
 #include <iostream>
 
 #include "tests/support/path_comparison.h"
+#include "tests/support/setting.h"
 
 namespace sightline::testing {
 namespace {
 
-void expect_right(const PathRun& run) {
+void expect_right(PathRun run) {
+  run.paths = setting("SIGHTLINE_PATHS", run.paths);
+  run.seed += static_cast<std::uint64_t>(setting("SIGHTLINE_PATH_SEED", 0));
   const PathReport report = compare_paths(run);
   for (const std::string& d : report.differences) ADD_FAILURE() << d;
   std::cout << report.paths << " paths, " << report.changes << " changes, "

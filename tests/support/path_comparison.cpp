@@ -76,6 +76,7 @@ class Comparison {
     check_order(walk);
     check_changes(walk);
     check_beside_changes(walk, kind, places, random);
+    check_division(walk, kind, places, random);
     for (int i = 0; i < run_->eyes; ++i) {
       const auto segment =
           static_cast<std::size_t>(random.integer(0, static_cast<int>(path.size()) - 2));
@@ -199,6 +200,75 @@ class Comparison {
                               along(places[c.segment], places[c.segment + 1], exact))});
       }
     }
+  }
+
+  struct ToldEvent {
+    double at;  // segment and u
+    PathEvent event;
+  };
+  static std::vector<ToldEvent> told_events(const ViewPath& walk) {
+    std::vector<ToldEvent> events;
+    for (const PathChange& c : walk.changes) {
+      for (const PathEvent& e : c.events) events.push_back({c.segment + c.u, e});
+    }
+    return events;
+  }
+
+  // The same path with further viewpoints on its segments has the same events.
+  void check_division(const ViewPath& walk, Viewpoint::Kind kind,
+                      const std::vector<ExactPoint>& places, Random& random) {
+    std::vector<Viewpoint> path{{kind, exact_position(places[0])}};
+    std::vector<double> at{0};
+    for (std::size_t s = 0; s + 1 < places.size(); ++s) {
+      std::vector<Number> seams{Number(1)};
+      for (int i = random.integer(1, 3); i > 0; --i) {
+        const int below = random.one_in(2) ? 12 : 997;
+        Number seam = Number(random.integer(1, below - 1)) / below;
+        // Where an event may be, exactly.
+        if (random.one_in(2) && !walk.changes.empty()) {
+          const auto c = random.integer(0, static_cast<int>(walk.changes.size()) - 1);
+          if (walk.changes[c].u > 0 && walk.changes[c].u < 1)
+            seam = Number(walk.changes[c].u);
+        }
+        seams.push_back(seam);
+      }
+      std::ranges::sort(seams);
+      seams.erase(std::ranges::unique(seams).begin(), seams.end());
+      for (const Number& seam : seams) {
+        path.push_back({kind, exact_position(along(places[s], places[s + 1], seam))});
+        at.push_back(static_cast<double>(s) + static_cast<double>(seam));
+      }
+    }
+    ViewPath divided = view_path(index_, path);
+    for (PathChange& c : divided.changes) {
+      const double u = at[c.segment] + c.u * (at[c.segment + 1] - at[c.segment]);
+      c.segment = 0;
+      c.u = u;
+    }
+    const std::vector<ToldEvent> whole = told_events(walk), parts = told_events(divided);
+    std::size_t i = 0;
+    while (i < std::min(whole.size(), parts.size()) &&
+           std::abs(whole[i].at - parts[i].at) < 0x1p-40 &&
+           whole[i].event == parts[i].event) {
+      ++i;
+    }
+    if (i == whole.size() && i == parts.size()) return;
+    std::ostringstream out;
+    out.precision(17);
+    out << "divided it has " << parts.size() << " events for " << whole.size()
+        << "; seams";
+    for (const double seam : at) out << ' ' << seam;
+    for (const auto* events : {&whole, &parts}) {
+      out << "\n   ";
+      for (std::size_t k = i > 0 ? i - 1 : 0; k < std::min(i + 3, events->size()); ++k) {
+        out << ' ' << (*events)[k].at << " kind "
+            << static_cast<int>((*events)[k].event.kind) << " of";
+        for (const Generator& g : (*events)[k].event.generators)
+          out << ' ' << static_cast<int>(g.kind) << ':' << g.id;
+        out << ';';
+      }
+    }
+    tell(out.str());
   }
 
   static bool sees(const PointView& view, int facet) {

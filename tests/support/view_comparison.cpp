@@ -18,8 +18,8 @@ const char* name(MapVertexKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 const char* name(MapEdgeKind kind) {
-  constexpr std::array kNames{"silhouette", "crease",  "valley",
-                              "boundary",   "contact", "crossing"};
+  constexpr std::array kNames{"silhouette", "crease",   "valley", "boundary",
+                              "contact",    "crossing", "cut"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -475,7 +475,9 @@ std::vector<std::string> compare_views(const ViewRun& run) {
     if (++seed % run.every != 0) continue;
     const Scene scene(each.soup);
     const SceneComparison comparison(scene);
-    const std::vector<NaiveEye> eyes = view_eyes(scene, seed, run.eyes);
+    const std::vector<NaiveEye> eyes = run.barely_off
+                                           ? eyes_barely_off(scene, seed, run.eyes)
+                                           : view_eyes(scene, seed, run.eyes);
     for (const NaiveEye& eye : eyes) {
       if (!run.on_scene && lies_on(scene, eye)) continue;
       if (comparison.differences(eye, run.general).empty()) continue;

@@ -48,12 +48,13 @@ class SceneComparison {
                                              bool general);
 
 struct ViewRun {
-  int eyes;              ///< a scene
-  std::uint64_t seed;    ///< another choice of eyes
-  bool general;          ///< compare `general` too, and structures
-  int every = 1;         ///< of this many scenes one
-  bool large = false;    ///< large_view_scenes() instead
-  bool on_scene = true;  ///< eyes on facets, edges and corners too
+  int eyes;                 ///< a scene
+  std::uint64_t seed;       ///< another choice of eyes
+  bool general;             ///< compare `general` too, and structures
+  int every = 1;            ///< of this many scenes one
+  bool large = false;       ///< large_view_scenes() instead
+  bool barely_off = false;  ///< eyes_barely_off() instead
+  bool on_scene = true;     ///< eyes on facets, edges and corners too
   int most_reports = 10;
 };
 /// Compares on view_scenes(); reports of the smallest cases.

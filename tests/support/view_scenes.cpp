@@ -293,4 +293,22 @@ std::vector<NaiveEye> view_eyes(const Scene& scene, std::uint64_t seed, int coun
   return result;
 }
 
+std::vector<NaiveEye> eyes_barely_off(const Scene& scene, std::uint64_t seed, int count) {
+  Random random(seed);
+  const std::vector<NaiveEye> eyes = view_eyes(scene, seed, 2 * count + 3);
+  std::vector<NaiveEye> result;
+  for (std::size_t i = 0; static_cast<int>(result.size()) < count; ++i) {
+    if (i % 3 == 0) continue;  // anywhere
+    NaiveEye eye = eyes[i];
+    Rational unit = 1;
+    for (int bits = random.integer(40, 80); bits > 0; --bits) unit /= 2;
+    const int only = random.integer(-3, 2);  // one coordinate, or all
+    for (int axis = 0; axis < 3; ++axis) {
+      if (only < 0 || only == axis) eye.at[axis] += random.integer(-9, 9) * unit;
+    }
+    result.push_back(std::move(eye));
+  }
+  return result;
+}
+
 }  // namespace sightline::testing

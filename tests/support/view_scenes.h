@@ -31,4 +31,8 @@ struct ViewScene {
 [[nodiscard]] std::vector<NaiveEye> view_eyes(const Scene& scene, std::uint64_t seed,
                                               int count);
 
+/// The same in planes, on lines and on the scene, but off by multiples of 2^-40 to 2^-80.
+[[nodiscard]] std::vector<NaiveEye> eyes_barely_off(const Scene& scene,
+                                                    std::uint64_t seed, int count);
+
 }  // namespace sightline::testing

@@ -309,6 +309,55 @@ TEST_F(CliLook, RefusesPicturesThatCannotBe) {
   EXPECT_EQ(out(), "");
 }
 
+TEST_F(CliLook, InABoxItTellsTheBoxAndWhereItCuts) {
+  const std::string box = std::string(SIGHTLINE_TEST_DATA) + "/views/box.obj";
+  const json j = answer(box + " --direction 1,-2,2 --list --box=-1,-1,-1,3,7/2,1 --svg " +
+                        file("cut.svg"));
+  EXPECT_EQ(j.at("box"), json({-1.0, -1.0, -1.0, 3.0, "7/2", 1.0}));
+  int cuts = 0;
+  for (const json& e : j.at("views")[0].at("map").at("edges")) {
+    if (e.at("kind") != "cut") continue;
+    ++cuts;
+    EXPECT_EQ(e.at("edge").at("side"), "z1");
+    EXPECT_TRUE(e.at("edge").at("facet").is_number());
+  }
+  EXPECT_EQ(cuts, 6);
+  EXPECT_EQ(occurrences(contents(file("cut.svg")), "<line class=\"cut\""), 6U);
+  const json whole = answer(box + " --direction 1,-2,2 --svg " + file("whole.svg"));
+  EXPECT_FALSE(whole.contains("box"));
+  EXPECT_EQ(contents(file("whole.svg")).find(".cut"), std::string::npos);
+}
+
+TEST_F(CliLook, RefusesBoxesInOneLine) {
+  const auto refused = [&](const std::string& words, const std::string& mentioned) {
+    EXPECT_EQ(run(kCube + words + " --json " + file("answer.json")), 2) << words;
+    EXPECT_EQ(occurrences(err(), "\n"), 1U) << err();
+    EXPECT_NE(err().find(mentioned), std::string::npos) << err();
+    EXPECT_FALSE(fs::exists(file("answer.json")));
+  };
+  refused(" --from 9,8,7 --box 0,0,0,1,1", "expected x0,y0,z0,x1,y1,z1");
+  refused(" --from 9,8,7 --box 0,0,0,1,1,1,2", "expected x0,y0,z0,x1,y1,z1");
+  refused(" --from 9,8,7 --box 0,0,0,1,1,z", "'z' is no coordinate");
+  refused(" --from 9,8,7 --box 0,0,1,1,1,1", "its low corner must be below");
+  refused(" --from 9,8,7 --box 0,0,0,1,1,1e300", "outside [2^-140, 2^140]");
+  refused(" --box 0,0,0,1,1,1 --path " +
+              file("walk.json", R"({"points": [[3, 3, 3], [4, 4, 5]]})"),
+          "without --box");
+}
+
+// Each view is written as it comes, but nothing has its name before all are done.
+TEST_F(CliLook, ARefusalOfALaterViewLeavesNoVtkFiles) {
+  EXPECT_EQ(
+      run(kCube + " --direction 1,0,0 --direction 0,0,1 --up 0,0,1 --vtk " + file("vtk")),
+      2);
+  EXPECT_FALSE(fs::exists(file("vtk"))) << err();
+  ASSERT_EQ(
+      run(kCube + " --direction 1,0,0 --direction 0,1,0 --up 0,0,1 --vtk " + file("vtk")),
+      0);
+  EXPECT_TRUE(fs::exists(file("vtk") + "/view1_regions.vtp"));
+  EXPECT_TRUE(fs::exists(file("vtk") + "/sightline.vtm"));
+}
+
 TEST_F(CliLook, EventsAlongAPathOfPoints) {
   const std::string path =
       file("walk.json", R"({"points": [[3, 3, 0.5], ["-2", 3, "1/2"], [-2, -2, 0.5]]})");

@@ -493,6 +493,14 @@ class ViewVtk : public ::testing::Test {
     folder_ = mkdtemp(pattern.data());
   }
   ~ViewVtk() override { fs::remove_all(folder_); }
+
+  std::vector<std::string> write(const Scene& scene, const PointView& view,
+                                 const ViewDrawing& drawing) const {
+    VtkViews files(folder_, scene);
+    files.add(view, drawing);
+    return files.finish();
+  }
+
   fs::path folder_;
 };
 
@@ -501,8 +509,7 @@ TEST_F(ViewVtk, RegionsLieOnTheirFacets) {
   for (const Kind kind : {Kind::Eye, Kind::Direction}) {
     const PointView view = convex_view(scene, plain_viewpoint(kind, {6, 5, 4}));
     const ViewDrawing drawing = view_drawing(scene, view);
-    const std::vector<std::string> files =
-        write_vtk_views(folder_, scene, {{&view, &drawing}});
+    const std::vector<std::string> files = write(scene, view, drawing);
     for (const std::string& file : files) {
       EXPECT_TRUE(fs::exists(folder_ / file)) << file;
     }
@@ -543,7 +550,10 @@ TEST_F(ViewVtk, RegionsCoverWhatIsSeen) {
                   far = index.view(eye_far_along({1, 2, 3}));
   const ViewDrawing near_drawing = view_drawing(scene, from);
   const ViewDrawing far_drawing = view_drawing(scene, far);
-  write_vtk_views(folder_, scene, {{&from, &near_drawing}, {&far, &far_drawing}});
+  VtkViews files(folder_, scene);
+  files.add(from, near_drawing);
+  files.add(far, far_drawing);
+  files.finish();
   double expected = 0, sum = 0;
   for (const MapRegion& r : from.regions) expected += r.patches.empty() ? 0 : *r.measure;
   for (const VeilTriangle& veil : read_vtk(folder_ / "view0_regions.vtp").veils) {
@@ -567,7 +577,7 @@ TEST_F(ViewVtk, BacksAreTurnedToTheEye) {
   const Point eye(0.3, 0.4, 0.55);
   const PointView view = PointViewIndex(scene).view(eye_at(eye));
   const ViewDrawing drawing = view_drawing(scene, view);
-  write_vtk_views(folder_, scene, {{&view, &drawing}});
+  write(scene, view, drawing);
   const VtkPicture regions = read_vtk(folder_ / "view0_regions.vtp");
   EXPECT_EQ(regions.veils.size(), 12U);
   double sum = 0;
@@ -579,11 +589,25 @@ TEST_F(ViewVtk, BacksAreTurnedToTheEye) {
   EXPECT_NEAR(sum, 4 * M_PI, 1e-12);
 }
 
+// What of a run is never finished takes no name, and waits for it in the folder.
+TEST_F(ViewVtk, FilesGetTheirNamesAtTheEnd) {
+  const Scene scene = cube();
+  const PointView view = convex_view(scene, plain_viewpoint(Kind::Eye, {6, 5, 4}));
+  const ViewDrawing drawing = view_drawing(scene, view);
+  {
+    VtkViews files(folder_, scene);
+    files.add(view, drawing);
+    EXPECT_FALSE(fs::exists(folder_ / "view0_regions.vtp"));
+    EXPECT_FALSE(fs::is_empty(folder_));
+  }
+  EXPECT_TRUE(fs::is_empty(folder_));
+}
+
 TEST_F(ViewVtk, ARegionWithAHoleIsCut) {
   const PointView view = plan_with_hole();
   const Scene scene = box({0, 0, 0}, {4, 4, 1});
   const ViewDrawing drawing = view_drawing(scene, view);
-  write_vtk_views(folder_, scene, {{&view, &drawing}});
+  write(scene, view, drawing);
   for (const char* name : {"view0_regions.vtp", "view0_picture_regions.vtp"}) {
     double sum = 0;
     for (const VeilTriangle& veil : read_vtk(folder_ / name).veils) {

@@ -27,6 +27,7 @@ namespace fs = std::filesystem;
 struct LookOptions : CommonOptions {
   ViewpointOptions viewpoints;
   std::string path;
+  std::string box;
   bool list = false;
   std::vector<double> window, up, towards;
   double fov = 0;  ///< degrees; 0: not told
@@ -117,10 +118,12 @@ class LookPictures {
         options_(options),
         scene_(scene),
         wish_(wish_of(options)),
-        files_(std::move(files)) {}
+        files_(std::move(files)) {
+    if (!options.vtk.empty()) vtk_.emplace(options.vtk, scene);
+  }
 
   /// Throws UsageError.
-  void add(const ViewQuestion& question, SeenView seen) {
+  void add(const ViewQuestion& question, const SeenView& seen) {
     if (!options_.draws()) return;
     ViewDrawing drawing = drawing_of(scene_, question, seen, wish_);
     if (!files_.svg.empty()) {
@@ -132,27 +135,24 @@ class LookPictures {
         return encode_png(view_image(drawing, seen.view, options_.pixels, request));
       });
     }
-    if (options_.vtk.empty()) return;
-    views_.push_back(std::move(seen.view));
-    drawings_.push_back(std::move(drawing));
+    if (!vtk_) return;
+    const bool written = session_.write("VTK files", [&](const Request& request) {
+      vtk_->add(seen.view, drawing, request);
+    });
+    if (!written) vtk_.reset();
   }
 
   void finish() {
     for (OutputFile* file : full_) file->commit();
-    if (options_.vtk.empty()) return;
-    std::vector<ViewAndDrawing> drawn;
-    for (std::size_t i = 0; i < views_.size(); ++i) {
-      drawn.push_back({&views_[i], &drawings_[i]});
-    }
-    session_.write("VTK files", [&](const Request& request) {
-      write_vtk_views(options_.vtk, scene_, drawn, request);
-    });
+    if (!vtk_) return;
+    session_.write("VTK files", [&](const Request& request) { vtk_->finish(request); });
   }
 
  private:
   void fill(OutputFile& file, const std::function<std::string(const Request&)>& bytes) {
     session_.write(told(file), [&](const Request& request) {
       file.stream() << bytes(request);
+      file.close();
       full_.push_back(&file);
     });
   }
@@ -163,9 +163,12 @@ class LookPictures {
   PictureWish wish_;
   PictureFiles files_;
   std::vector<OutputFile*> full_;
-  // For VTK files, which are written all at once.
-  std::vector<PointView> views_;
-  std::vector<ViewDrawing> drawings_;
+  std::optional<VtkViews> vtk_;
+};
+
+struct LookQuestions {
+  std::vector<ViewQuestion> views;
+  std::optional<BoxQuestion> box;
 };
 
 /// What is kept of all views.
@@ -176,11 +179,13 @@ struct AllSeen {
 };
 
 AllSeen see_all(Session& session, const LookOptions& options, const Scene& scene,
-                const std::vector<ViewQuestion>& questions, LookPictures& pictures) {
+                const LookQuestions& asked, LookPictures& pictures) {
   Request request = session.with_grace();
   request.precision = options.precision;
   request.threads = options.threads;
-  const PointViewIndex index(scene, request);
+  const PointViewIndex index = asked.box ? PointViewIndex(scene, asked.box->box, request)
+                                         : PointViewIndex(scene, request);
+  const std::vector<ViewQuestion>& questions = asked.views;
   session.limit(request);
   session.begin("views");
   const ViewWish wish{.map = options.list,
@@ -191,7 +196,7 @@ AllSeen see_all(Session& session, const LookOptions& options, const Scene& scene
   all.predicates = see(scene, index, questions, wish, request, [&](SeenView seen) {
     all.views.push_back(std::move(seen.json));
     all.rows += seen.rows;
-    pictures.add(questions[seen.number], std::move(seen));
+    pictures.add(questions[seen.number], seen);
   });
   return all;
 }
@@ -215,6 +220,8 @@ void check_alone(const LookOptions& options) {
   if (options.precision != Precision::Exact) {
     throw UsageError("--path: is answered exactly, not with --precision double");
   }
+  if (!options.box.empty())
+    throw UsageError("--path: goes through the whole scene, without --box");
   if (options.draws() || !options.csv.empty()) {
     throw UsageError(
         "--path: answers in JSON only, without --svg, --png, --vtk or --csv");
@@ -298,8 +305,11 @@ ExitStatus run(Session& session, const LookOptions& options) {
   Outputs outputs(options);
   OutputFile* const csv =
       options.csv.empty() ? nullptr : &outputs.add("--csv", options.csv);
-  const std::vector<ViewQuestion> questions =
-      questions_of(session, options.viewpoints, outputs);
+  const LookQuestions asked{questions_of(session, options.viewpoints, outputs),
+                            options.box.empty()
+                                ? std::nullopt
+                                : std::optional(box_question("--box", options.box))};
+  const std::vector<ViewQuestion>& questions = asked.views;
   if (questions.empty()) {
     throw UsageError(
         "look: from where? name --from x,y,z, --direction x,y,z, --at FILE or --path "
@@ -315,7 +325,7 @@ ExitStatus run(Session& session, const LookOptions& options) {
 
   // 2. The views, drawn as they come.
   LookPictures pictures(session, options, scene, std::move(files));
-  AllSeen all = see_all(session, options, scene, questions, pictures);
+  AllSeen all = see_all(session, options, scene, asked, pictures);
   const bool complete = all.views.size() == questions.size();
 
   // 3. The files; the answer comes last.
@@ -326,6 +336,7 @@ ExitStatus run(Session& session, const LookOptions& options) {
   }
   Json answer = answer_head("look", scene, complete && session.unwritten().empty(),
                             {session.seconds(), meter.predicates() + all.predicates});
+  if (asked.box) answer["box"] = asked_json(*asked.box);
   answer["views"] = std::move(all.views);
   while (answer["views"].size() < questions.size()) answer["views"].push_back(nullptr);
   outputs.write_answer(answer);
@@ -349,6 +360,13 @@ void add_view_options(CLI::App& command, LookOptions& options) {
                   "events that the eye crosses on its way, and the view between each "
                   "two; in JSON only, with neither pictures nor tables")
       ->type_name("FILE");
+  command
+      .add_option("--box", options.box,
+                  "a section or a crop: what of the scene lies in this box, its sides "
+                  "included, is all that is seen and hides; numbers or fractions p/q. "
+                  "Lines where it cuts have the kind cut; closed objects that it cuts "
+                  "open show their backs there (docs/point_view.md, In a box)")
+      ->type_name("x0,y0,z0,x1,y1,z1");
   command.add_flag("--list", options.list,
                    "add the map to the JSON answer: its vertices, edges with the regions "
                    "beside them, regions with their boundaries");
@@ -393,11 +411,12 @@ void add_window_options(CLI::App& command, LookOptions& options) {
 /// What is written, beside the answer.
 void add_file_options(CLI::App& command, LookOptions& options) {
   command
-      .add_option("--svg", options.svg,
-                  "draw the view: patches (path.patch), edges (line.silhouette, .crease, "
-                  ".valley, .boundary, .contact, .crossing) and vertices (circle.corner, "
-                  ".t, .touch, .accident), each with its name; see --seams "
-                  "and --hidden; of several views NAME0.svg, NAME1.svg, ..., 100 at most")
+      .add_option(
+          "--svg", options.svg,
+          "draw the view: patches (path.patch), edges (line.silhouette, .crease, "
+          ".valley, .boundary, .contact, .crossing, .cut) and vertices (circle.corner, "
+          ".t, .touch, .accident), each with its name; see --seams "
+          "and --hidden; of several views NAME0.svg, NAME1.svg, ..., 100 at most")
       ->type_name("FILE");
   command
       .add_option("--png", options.png,
@@ -440,6 +459,9 @@ Command add_look_command(CLI::App& app) {
       "  sightline look room.obj --from 3,1.5,2 --towards 0,1,0 --fov 70 --svg room.svg\n"
       "  sightline look house.ifc --direction 0,0,1 --direction 0,-1,0 --svg house.svg\n"
       "    (a plan, house0.svg, and an elevation from the south, house1.svg)\n"
+      "  sightline look house.ifc --direction 0,0,1 --box=-1,-1,0,20,20,1.2 --svg "
+      "plan.svg\n"
+      "    (the ground floor's plan, cut at 1.2)\n"
       "  sightline look city.obj --at eyes.json --csv seen.csv --threads 8\n"
       "  sightline look room.obj --path walk.json --json -");
   return command_of(options, run);

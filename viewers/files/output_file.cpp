@@ -155,6 +155,8 @@ class OutputFile::Buffer : public std::streambuf {
       error_ = errno;
     }
     fd_ = -1;
+    bytes_ = {};
+    setp(nullptr, nullptr);
   }
 
  protected:
@@ -172,7 +174,7 @@ class OutputFile::Buffer : public std::streambuf {
     return error_ == 0 ? 0 : -1;
   }
   int_type overflow(int_type c) override {
-    if (sync() != 0) return traits_type::eof();
+    if (fd_ < 0 || sync() != 0) return traits_type::eof();
     if (traits_type::eq_int_type(c, traits_type::eof())) return traits_type::not_eof(c);
     *pptr() = traits_type::to_char_type(c);
     pbump(1);
@@ -184,7 +186,7 @@ class OutputFile::Buffer : public std::streambuf {
   int lock_;  // another descriptor of the same file
   bool owned_;
   int error_ = 0;
-  std::array<char, 1 << 16> bytes_;
+  std::vector<char> bytes_ = std::vector<char>(1 << 16);
 };
 
 OutputFile::OutputFile(const fs::path& path) : path_(path) {
@@ -244,6 +246,8 @@ bool OutputFile::collides_with(const OutputFile& other) const {
   };
   return target_.filename() == other.target_.filename() && folder(*this) == folder(other);
 }
+
+void OutputFile::close() { buffer_->close(); }
 
 void OutputFile::commit() {
   buffer_->close();

@@ -37,13 +37,19 @@ std::string pair_text(const PlanePoint& p) {
   return fmt::format("{:.7g} {:.7g}", p.x(), p.y());
 }
 
-std::string style_sheet(std::size_t edges, bool further) {
+std::string style_sheet(const PointView& view, std::size_t edges, bool further) {
   std::string css =
       "  .patch { stroke: none; }\n  line { stroke-linecap: round; }\n"
       "  circle { fill: #16181f; }\n";
   for (const MapEdgeKind kind :
        {MapEdgeKind::Silhouette, MapEdgeKind::Crease, MapEdgeKind::Valley,
-        MapEdgeKind::Boundary, MapEdgeKind::Contact, MapEdgeKind::Crossing}) {
+        MapEdgeKind::Boundary, MapEdgeKind::Contact, MapEdgeKind::Crossing,
+        MapEdgeKind::Cut}) {
+    if (kind == MapEdgeKind::Cut &&
+        std::ranges::none_of(
+            view.edges, [](const MapEdge& e) { return e.kind == MapEdgeKind::Cut; })) {
+      continue;
+    }
     const LineStyle style = style_of(kind, edges);
     css += fmt::format("  .{} {{ stroke: {}; stroke-width: {:g}; }}\n", name(kind),
                        hex(style.colour), style.width);
@@ -86,9 +92,10 @@ std::string patch_element(const Scene& scene, const MapRegion& region,
 std::string edge_element(const MapEdge& edge, const DrawnEdge& drawn,
                          const Sheet& sheet) {
   const PlanePoint a = sheet.place(drawn.points[0]), b = sheet.place(drawn.points[1]);
-  const std::string line = edge.line.edge >= 0 ? fmt::format("{}", edge.line.edge)
-                                               : fmt::format("{} {}", edge.line.facets[0],
-                                                             edge.line.facets[1]);
+  std::string line = fmt::format("{} {}", edge.line.facets[0], edge.line.facets[1]);
+  if (edge.line.edge >= 0) line = fmt::format("{}", edge.line.edge);
+  if (edge.line.box_side >= 0)
+    line = fmt::format("{} {}", edge.line.facets[0], box_side_name(edge.line.box_side));
   return fmt::format(
       "<line class=\"{0}\" data-edge=\"{1}\" data-line=\"{2}\" x1=\"{3:.7g}\" "
       "y1=\"{4:.7g}\" x2=\"{5:.7g}\" y2=\"{6:.7g}\"><title>{7}: {0}</title></line>\n",
@@ -137,7 +144,7 @@ std::string view_svg(const Scene& scene, const PointView& view,
       "width=\"{0:.7g}\" height=\"{1:.7g}\">\n<style>\n{2}</style>\n"
       "<rect class=\"paper\" width=\"{0:.7g}\" height=\"{1:.7g}\" fill=\"{3}\"/>\n",
       sheet.size().x(), sheet.size().y(),
-      style_sheet(drawing.edges.size(), !drawing.further.empty()), hex(kPaper));
+      style_sheet(view, drawing.edges.size(), !drawing.further.empty()), hex(kPaper));
   text += "<g id=\"patches\">\n";
   for (const DrawnRegion& drawn : drawing.regions) {
     text += patch_element(scene, view.regions[drawn.region], drawn, sheet);

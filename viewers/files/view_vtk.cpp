@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "viewers/files/vtk_cells.h"
-#include "viewers/output_file.h"
 #include "viewers/palette.h"
 #include "viewers/pictures/trapezoids.h"
 #include "viewers/queries/view_answer.h"
@@ -201,35 +200,40 @@ Cells drawn_vertices(const PointView& view, const ViewDrawing& drawing) {
 
 }  // namespace
 
-std::vector<std::string> write_vtk_views(const std::filesystem::path& folder,
-                                         const Scene& scene,
-                                         const std::vector<ViewAndDrawing>& views,
-                                         const Request& request) {
+VtkViews::VtkViews(std::filesystem::path folder, const Scene& scene)
+    : folder_(std::move(folder)), scene_(&scene) {}
+
+void VtkViews::add(const PointView& view, const ViewDrawing& drawing,
+                   const Request& request) {
   Stage stage(request, "VTK files");
-  std::vector<std::string> files = write_vtk(folder, scene, {}, request);
-  begin_vtk_folder(folder);
-  std::erase(files, kVtkIndex);
-  std::vector<std::string> blocks{"scene", "edges"};
+  make_folder(folder_);
+  const std::string prefix = fmt::format("view{}_", count_++);
   const auto write = [&](const std::string& name, const Cells& cells, bool in_space) {
     if (cells.empty()) return;
-    write_poly_data(folder / (name + ".vtp"), cells.poly_data(), stage);
-    files.push_back(name + ".vtp");
-    if (in_space) blocks.push_back(name);
+    const std::string block = prefix + name;
+    files_.push_back(
+        {block, poly_data_file(folder_ / (block + ".vtp"), cells.poly_data(), stage)});
+    if (in_space) blocks_.push_back(block);
   };
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    const PointView& view = *views[i].view;
-    const ViewDrawing& drawing = *views[i].drawing;
-    const std::string prefix = fmt::format("view{}_", i);
-    write(prefix + "regions", regions_in_space(scene, view, drawing.plane, stage), true);
-    write(prefix + "edges", edges_in_space(view), true);
-    write(prefix + "vertices", vertices_in_space(view), true);
-    write(prefix + "picture_regions", drawn_regions(scene, view, drawing, stage), false);
-    write(prefix + "picture_edges", drawn_edges(view, drawing), false);
-    write(prefix + "picture_vertices", drawn_vertices(view, drawing), false);
+  write("regions", regions_in_space(*scene_, view, drawing.plane, stage), true);
+  write("edges", edges_in_space(view), true);
+  write("vertices", vertices_in_space(view), true);
+  write("picture_regions", drawn_regions(*scene_, view, drawing, stage), false);
+  write("picture_edges", drawn_edges(view, drawing), false);
+  write("picture_vertices", drawn_vertices(view, drawing), false);
+}
+
+std::vector<std::string> VtkViews::finish(const Request& request) {
+  std::vector<std::string> names = write_vtk(folder_, *scene_, {}, request);
+  begin_vtk_folder(folder_);
+  std::erase(names, kVtkIndex);
+  for (const auto& [block, file] : files_) {
+    file->commit();
+    names.push_back(block + ".vtp");
   }
-  write_whole(folder / kVtkIndex, multi_block_text(blocks));
-  files.emplace_back(kVtkIndex);
-  return files;
+  write_whole(folder_ / kVtkIndex, multi_block_text(blocks_));
+  names.emplace_back(kVtkIndex);
+  return names;
 }
 
 }  // namespace sightline::viewers

@@ -3,20 +3,16 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "viewers/output_file.h"
 #include "viewers/pictures/view_drawing.h"
 
 namespace sightline::viewers {
 
-/// A view and what is drawn of it.
-struct ViewAndDrawing {
-  const PointView* view;
-  const ViewDrawing* drawing;
-};
-
-/// Writes into `folder` the scene, as write_vtk() does, and of each view, `viewN_` before
+/// Writes into a folder the scene, as write_vtk() does, and of each view, `viewN_` before
 /// each name (N from 0):
 ///   regions.vtp   in space, on the planes of their facets; cell arrays region, patch,
 ///                 facet (of several the first), facets (text), object, measure (NaN if
@@ -31,11 +27,32 @@ struct ViewAndDrawing {
 /// Polygons are counter-clockwise as the eye sees them.  A region that is not convex
 /// is cut into triangles and trapezoids; `region` tells which belong together.
 /// Numbers are those of the answer, `colour` is RGB.  The index sightline.vtm holds
-/// what lies in space.  Returns the names of the files.  Of the request, stop, budget
-/// and progress count: throws Stopped.  Throws OutputError and WriteError.
-std::vector<std::string> write_vtk_views(const std::filesystem::path& folder,
-                                         const Scene& scene,
-                                         const std::vector<ViewAndDrawing>& views,
-                                         const Request& request = {});
+/// what lies in space.  A view is written when it is added and needs not be held; the
+/// files get their names in finish(), the index last.  Destroyed without finish(), it
+/// leaves nothing but the folder.
+class VtkViews {
+ public:
+  /// Keeps a reference to the scene.
+  VtkViews(std::filesystem::path folder, const Scene& scene);
+
+  /// Writes the files of the next view.  Of the request, stop, budget and progress count:
+  /// throws Stopped.  Throws OutputError and WriteError.
+  void add(const PointView& view, const ViewDrawing& drawing,
+           const Request& request = {});
+  /// Writes the scene, names all files and returns these names.  Throws as add() does;
+  /// then the index is not written.
+  std::vector<std::string> finish(const Request& request = {});
+
+ private:
+  std::filesystem::path folder_;
+  const Scene* scene_;
+  int count_ = 0;
+  struct Waiting {
+    std::string block;
+    std::unique_ptr<OutputFile> file;
+  };
+  std::vector<Waiting> files_;
+  std::vector<std::string> blocks_{"scene", "edges"};  // of the index
+};
 
 }  // namespace sightline::viewers

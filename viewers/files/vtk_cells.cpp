@@ -8,8 +8,6 @@
 
 #include <exception>
 
-#include "viewers/output_file.h"
-
 namespace sightline::viewers {
 namespace {
 
@@ -32,11 +30,11 @@ void abort_when_stopped(vtkObject* writer, unsigned long, void* data, void*) {
 
 }  // namespace
 
-void write_poly_data(const std::filesystem::path& path, vtkPolyData* data,
-                     internal::Stage& stage) {
-  OutputFile file(path);
+std::unique_ptr<OutputFile> poly_data_file(const std::filesystem::path& path,
+                                           vtkPolyData* data, internal::Stage& stage) {
+  auto file = std::make_unique<OutputFile>(path);
   vtkNew<vtkXMLPolyDataWriter> writer;
-  writer->SetFileName(file.temporary_path().c_str());
+  writer->SetFileName(file->temporary_path().c_str());
   writer->SetInputData(data);
   writer->SetEncodeAppendedData(0);
   const vtkNew<vtkCallbackCommand> ask;
@@ -52,7 +50,13 @@ void write_poly_data(const std::filesystem::path& path, vtkPolyData* data,
         fmt::format("{}: could not be written to its end: {}", path.string(),
                     vtkErrorCode::GetStringFromErrorCode(writer->GetErrorCode())));
   }
-  file.commit();
+  file->close();
+  return file;
+}
+
+void write_poly_data(const std::filesystem::path& path, vtkPolyData* data,
+                     internal::Stage& stage) {
+  poly_data_file(path, data, stage)->commit();
 }
 
 void begin_vtk_folder(const std::filesystem::path& folder) {

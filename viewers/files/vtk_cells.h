@@ -18,10 +18,12 @@
 #include <filesystem>
 #include <initializer_list>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "linespace/work/stage.h"
+#include "viewers/output_file.h"
 #include "viewers/picture.h"
 
 namespace sightline::viewers {
@@ -141,7 +143,11 @@ class QuietVtk {
   int before_;
 };
 
-/// Throws WriteError where it cannot be written to its end, and Stopped.
+/// The whole of a file that waits for commit() to give it its name.  Throws WriteError
+/// where it cannot be written to its end, and Stopped.
+[[nodiscard]] std::unique_ptr<OutputFile> poly_data_file(
+    const std::filesystem::path& path, vtkPolyData* data, internal::Stage& stage);
+/// The same with its name.
 void write_poly_data(const std::filesystem::path& path, vtkPolyData* data,
                      internal::Stage& stage);
 

@@ -108,7 +108,8 @@ LineStyle style_of(MapEdgeKind kind, std::size_t edges) {
                                           {{0.38F, 0.40F, 0.46F}, 1.2F},   // valley
                                           {{0.08F, 0.20F, 0.27F}, 2.0F},   // boundary
                                           {{0.36F, 0.22F, 0.50F}, 1.2F},   // contact
-                                          {{0.84F, 0.15F, 0.24F}, 1.4F}};  // crossing
+                                          {{0.84F, 0.15F, 0.24F}, 1.4F},   // crossing
+                                          {{0.04F, 0.04F, 0.06F}, 3.6F}};  // cut
   return thinned(kStyles[static_cast<int>(kind)], edges);
 }
 

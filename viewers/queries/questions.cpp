@@ -31,15 +31,19 @@ std::vector<Point> portal_of(const JsonInput& item) {
   return portal;
 }
 
-std::array<std::string, 3> three_texts(const std::string& text) {
-  const std::size_t first = text.find(',');
-  const std::size_t second =
-      text.find(',', first == std::string::npos ? first : first + 1);
-  if (second == std::string::npos || text.find(',', second + 1) != std::string::npos) {
-    throw InvalidInput("expected x,y,z");
+/// The texts between the commas, as many as `expected`, such as "x,y,z", names.
+template <std::size_t N>
+std::array<std::string, N> texts_of(const std::string& text, const char* expected) {
+  std::array<std::string, N> texts;
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < N; ++i) {
+    const std::size_t end = text.find(',', begin);
+    if ((end == std::string::npos) != (i + 1 == N))
+      throw InvalidInput(fmt::format("expected {}", expected));
+    texts[i] = text.substr(begin, end - begin);
+    begin = end + 1;
   }
-  return {text.substr(0, first), text.substr(first + 1, second - first - 1),
-          text.substr(second + 1)};
+  return texts;
 }
 
 /// viewpoint(), refused here where PointViewIndex would refuse it.
@@ -128,8 +132,17 @@ std::vector<Viewpoint> path_question(const JsonInput& file) {
 ViewQuestion view_question(Viewpoint::Kind kind, const std::string& option,
                            const std::string& text) {
   try {
-    const std::array<std::string, 3> asked = three_texts(text);
+    const std::array<std::string, 3> asked = texts_of<3>(text, "x,y,z");
     return {viewpoint_in_range(kind, asked), asked, fmt::format("{} {}", option, text)};
+  } catch (const InvalidInput& refusal) {
+    throw InvalidInput(fmt::format("{} '{}': {}", option, text, refusal.what()));
+  }
+}
+
+BoxQuestion box_question(const std::string& option, const std::string& text) {
+  try {
+    const std::array<std::string, 6> asked = texts_of<6>(text, "x0,y0,z0,x1,y1,z1");
+    return {view_box(asked), asked};
   } catch (const InvalidInput& refusal) {
     throw InvalidInput(fmt::format("{} '{}': {}", option, text, refusal.what()));
   }

@@ -11,6 +11,8 @@ namespace {
 
 Json line_json(const MapLine& line) {
   if (line.edge >= 0) return line.edge;
+  if (line.box_side >= 0)
+    return {{"facet", line.facets[0]}, {"side", box_side_name(line.box_side)}};
   return {{"facets", line.facets}};
 }
 
@@ -123,8 +125,8 @@ std::string_view name(FurtherLine::Kind kind) {
 }
 
 std::string_view name(MapEdgeKind kind) {
-  static constexpr const char* kNames[] = {"silhouette", "crease",  "valley",
-                                           "boundary",   "contact", "crossing"};
+  static constexpr const char* kNames[] = {"silhouette", "crease",   "valley", "boundary",
+                                           "contact",    "crossing", "cut"};
   return kNames[static_cast<int>(kind)];
 }
 
@@ -135,13 +137,30 @@ std::string_view name(AccidentKind kind) {
   return kNames[static_cast<int>(kind)];
 }
 
+std::string_view box_side_name(int side) {
+  static constexpr const char* kNames[] = {"x0", "y0", "z0", "x1", "y1", "z1"};
+  return kNames[side];
+}
+
 std::string told(const MapLine& line) {
+  if (line.box_side >= 0)
+    return fmt::format("facet {} cut by {}", line.facets[0],
+                       box_side_name(line.box_side));
   return line.edge >= 0 ? fmt::format("edge {}", line.edge)
                         : fmt::format("facets {} and {}", line.facets[0], line.facets[1]);
 }
 
 int count(const PointView& view, MapVertexKind kind) {
   return static_cast<int>(std::ranges::count(view.vertices, kind, &MapVertex::kind));
+}
+
+Json asked_json(const BoxQuestion& box) {
+  Json json = asked_json(box.box.low, {box.asked[0], box.asked[1], box.asked[2]});
+  for (Json& number :
+       asked_json(box.box.high, {box.asked[3], box.asked[4], box.asked[5]})) {
+    json.push_back(std::move(number));
+  }
+  return json;
 }
 
 Json asked_json(const ExactPosition& at, const std::array<std::string, 3>& asked) {

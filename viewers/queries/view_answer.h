@@ -18,7 +18,11 @@ namespace sightline::viewers {
 [[nodiscard]] std::string_view name(FurtherLine::Kind kind);  ///< "seam", "hidden"
 [[nodiscard]] std::string_view name(AccidentKind kind);       ///< "edge_on", ...
 
-/// "edge 12", or "facets 3 and 7" where these cut through each other.
+/// "x0" to "z1": the sides of a box in the order of MapLine::box_side.
+[[nodiscard]] std::string_view box_side_name(int side);
+
+/// "edge 12", or "facets 3 and 7" where these cut through each other, or "facet 3 cut by
+/// z1".
 [[nodiscard]] std::string told(const MapLine& line);
 
 /// How many of the view's vertices are of this kind.
@@ -27,6 +31,7 @@ namespace sightline::viewers {
 /// Coordinates as they were asked: a number where it was one, else the text.
 [[nodiscard]] Json asked_json(const ExactPosition& at,
                               const std::array<std::string, 3>& asked);
+[[nodiscard]] Json asked_json(const BoxQuestion& box);
 
 /// One of "views" in the answer of `sightline look`, with "map" if asked for.  A line in
 /// the map is the id of an edge, or {"facets": [a, b]}; the "boundary" of a region lists

@@ -455,6 +455,21 @@ Json report_json(const Session& session, const AnalyseOptions& options,
   return report;
 }
 
+/// Writes report.json and the page.  The page is made of the report and of the pictures
+/// alone, so that both say the same.
+Json write_report(Json report, const Pictures& pictures, ReportFolder& folder,
+                  const StageLog& log) {
+  report["stages"] = log.stages();
+  // Announced before the list of files is taken: they are in it themselves.
+  const fs::path report_file = folder.announce("report.json");
+  const fs::path page = folder.announce("index.html");
+  report["files"] = folder.files();
+  write_whole(report_file, json_text(report, 1) + "\n");
+  write_whole(page,
+              report_page(report, pictures.skeleton, pictures.views, pictures.light));
+  return report;
+}
+
 ExitStatus run(Session& session, const AnalyseOptions& options) {
   // 1. Outputs first: a folder that cannot be written is refused before the work.  Two
   // kinds of names are ours: those of the report, and in `vtk` those of VTK files.
@@ -483,19 +498,20 @@ ExitStatus run(Session& session, const AnalyseOptions& options) {
 
   // 3. Files.  Those of an earlier run go first, so that the folder is of one run only.
   folder.clear();
+  if (session.stopped()) {
+    // The program may have to end while it still writes what takes long: then there is
+    // this report, which says that nothing else is there.
+    Json early = report_json(session, options, parts, questions, subject, analysis);
+    early["complete"] = false;
+    early["missing"].push_back("Not written: any file but this report");
+    write_report(std::move(early), {}, folder, log);
+  }
   const Pictures pictures = write_parts(session, options, scene, analysis, folder, log);
 
-  // 4. The report.  The page is made of it and of the pictures alone, so that both say
-  // the same.
-  Json report = report_json(session, options, parts, questions, subject, analysis);
-  report["stages"] = log.stages();
-  // Announced before the list of files is taken: they are in it themselves.
-  const fs::path report_file = folder.announce("report.json");
-  const fs::path page = folder.announce("index.html");
-  report["files"] = folder.files();
-  write_whole(report_file, json_text(report, 1) + "\n");
-  write_whole(page,
-              report_page(report, pictures.skeleton, pictures.views, pictures.light));
+  // 4. The report.
+  const Json report =
+      write_report(report_json(session, options, parts, questions, subject, analysis),
+                   pictures, folder, log);
   outputs.write_answer(report);
   if (options.may_print()) print_summary(report, questions, folder.path());
   return session.end(report["complete"]);
