@@ -10,10 +10,6 @@ namespace {
 
 constexpr long double kLongUnit = 0x1p-64L;
 
-Rational determinant(const ExactPoint& u, const ExactPoint& v, const ExactPoint& w) {
-  return exact_dot(u, exact_cross(v, w));
-}
-
 // Sum of |u_i| |v_j| |w_k| over the six terms of a determinant.
 long double permanent(const LongVector& u, const LongVector& v, const LongVector& w) {
   return u[0] * (v[1] * w[2] + v[2] * w[1]) + u[1] * (v[2] * w[0] + v[0] * w[2]) +
@@ -133,7 +129,7 @@ Rational EyeSpace::height_of(const ExactPoint& p) const {
 }
 
 Rational EyeSpace::exact_orient_value(int p, int q, int r) const {
-  return determinant(exact_vector(p), exact_vector(q), exact_vector(r));
+  return exact_dot(exact_vector(p), exact_cross(exact_vector(q), exact_vector(r)));
 }
 
 LongValue EyeSpace::orient_value(int p, int q, int r) const {

@@ -114,4 +114,11 @@ std::strong_ordering LineCuts::compare(const LineCut& a, const LineCut& b) const
   return ordering(Rational(a0 * b1 - b0 * a1).sign());
 }
 
+std::ptrdiff_t LineCuts::rank(std::span<const LineCut> at, const LineCut& cut) const {
+  const auto before = [&](const LineCut& x, const LineCut& y) {
+    return compare(x, y) < 0;
+  };
+  return std::ranges::lower_bound(at, cut, before) - at.begin();
+}
+
 }  // namespace sightline::internal

@@ -1,9 +1,18 @@
 // Positions on a line of the scene at which its view can change, and their exact order.
+//
+// A second kind beside Cut (linespace/swaths/edge_cuts.h), which the skeleton's vertex
+// views use.  A Cut is where a plane through three points of the scene crosses an edge,
+// which doubles and expansions compare at half of the size.  Here the eye may be a
+// direction or have fractions for coordinates, lines end where faces cross, and the map
+// goes on with the position as a picture vector, for which doubles are too rough.
 
 #pragma once
 
+#include <algorithm>
 #include <compare>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "linespace/picture/eye_space.h"
 #include "linespace/swaths/outline_stretch.h"
@@ -52,6 +61,14 @@ class LineCuts {
 
   [[nodiscard]] std::strong_ordering compare(const LineCut& a, const LineCut& b) const;
 
+  /// Sorts positions and leaves one of those that are equal.  merged(x, y) is told that y
+  /// goes, which equals x.
+  template <class Merged>
+  void sort_unique(std::vector<LineCut>& at, Merged&& merged) const;
+  /// Where a position stands among those that sort_unique() left, which have it.
+  [[nodiscard]] std::ptrdiff_t rank(std::span<const LineCut> at,
+                                    const LineCut& cut) const;
+
   /// s and t of a picture vector w = s u + t v on the line's picture, u and v being the
   /// vectors of its ends.  The position there is t / (s + t).
   [[nodiscard]] std::array<Rational, 2> shares(const ExactPoint& w) const;
@@ -69,5 +86,17 @@ class LineCuts {
   int line_;
   std::array<int, 2> ends_;
 };
+
+template <class Merged>
+void LineCuts::sort_unique(std::vector<LineCut>& at, Merged&& merged) const {
+  std::ranges::sort(
+      at, [&](const LineCut& x, const LineCut& y) { return compare(x, y) < 0; });
+  const auto same = [&](const LineCut& x, const LineCut& y) {
+    if (compare(x, y) != 0) return false;
+    merged(x, y);
+    return true;
+  };
+  at.erase(std::unique(at.begin(), at.end(), same), at.end());
+}
 
 }  // namespace sightline::internal

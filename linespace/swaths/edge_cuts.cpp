@@ -11,22 +11,11 @@
 
 namespace sightline::internal {
 
-// The parameter is |x| / (|x| + |y|) with x, y the values at the two ends, increasing in
-// |x| and decreasing in |y|.  Four roundings at most, so a relative slack of 8 units in
-// the last place of 1 covers them.
 Cut make_cut(CutKind kind, std::int32_t feature, const std::array<std::int32_t, 3>& plane,
              const BoundedValue& at_start, const BoundedValue& at_end) {
-  constexpr double slack = 8 * std::numeric_limits<double>::epsilon();
-  const double x = std::abs(at_start.value);
-  const double y = std::abs(at_end.value);
-  const double x_low = std::max(0.0, x - at_start.error);
-  const double y_low = std::max(0.0, y - at_end.error);
-  const double x_high = x + at_start.error;
-  const double y_high = y + at_end.error;
-  Cut cut{kind, feature, plane, 0, 1};
-  if (x_low + y_high > 0) cut.lo = std::max(0.0, x_low / (x_low + y_high) * (1 - slack));
-  if (x_high + y_low > 0) cut.hi = std::min(1.0, x_high / (x_high + y_low) * (1 + slack));
-  return cut;
+  const auto [lo, hi] =
+      enclosed_root(at_start.value, at_start.error, at_end.value, at_end.error);
+  return {kind, feature, plane, lo, hi};
 }
 
 Cut exact_cut(const Rational& parameter) {

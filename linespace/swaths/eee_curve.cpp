@@ -73,17 +73,10 @@ BilinearForm<Ring> OuterPair::exact_form(const Carrier& g) const {
                    {at(g.points[0]), at(g.points[1])});
 }
 
-// s = |x| / (|x| + |y|), increasing in |x| and decreasing in |y|; as make_cut().
 void enclose_root(const BoundedLinear& l, CurveCut& cut) {
-  constexpr double slack = 16 * kUnit;
-  const double x = std::abs(l.at0);
-  const double y = std::abs(l.at1);
-  const double x_low = std::max(0.0, x - l.error0);
-  const double y_low = std::max(0.0, y - l.error1);
-  const double x_high = x + l.error0;
-  const double y_high = y + l.error1;
-  cut.lo = x_low > 0 ? std::max(0.0, x_low / (x_low + y_high) * (1 - slack)) : 0;
-  cut.hi = y_low > 0 ? std::min(1.0, x_high / (x_high + y_low) * (1 + slack)) : 1;
+  const auto [lo, hi] = enclosed_root(l.at0, l.error0, l.at1, l.error1);
+  cut.lo = lo;
+  cut.hi = hi;
 }
 
 const BilinearForm<Ring>& EeeCurve::exact_form() const {
@@ -325,9 +318,8 @@ double EeeCurve::rounded(const CurveCut& cut) const {
   return quotient({r.a, r.b}, {r.c, 0}, r.d);
 }
 
-// t = |F0| / (|F0| + |F1|) as in enclose_root(), F0 and F1 being linear in s.
+// t = |F0| / (|F0| + |F1|), F0 and F1 being linear in s.
 std::array<double, 2> EeeCurve::enclose_last(const CurveCut& cut) const {
-  constexpr double slack = 16 * kUnit;
   double low[2];
   double high[2];
   for (int b = 0; b < 2; ++b) {
@@ -339,8 +331,7 @@ std::array<double, 2> EeeCurve::enclose_last(const CurveCut& cut) const {
     low[b] = (at_lo > 0) == (at_hi > 0) ? std::max(0.0, std::min(x, y) - error) : 0;
     high[b] = std::max(x, y) + error;
   }
-  return {low[0] > 0 ? low[0] / (low[0] + high[1]) * (1 - slack) : 0,
-          low[1] > 0 ? std::min(1.0, high[0] / (high[0] + low[1]) * (1 + slack)) : 1};
+  return enclosed_share(low[0], high[0], low[1], high[1]);
 }
 
 double EeeCurve::last_parameter(double s) const {

@@ -281,32 +281,22 @@ LineViewer::Scan LineViewer::scan_covers(int line, const LineCuts& cuts) {
     if (at_a != Sign::Zero && eye_->scene().plane_side(face, b) == -at_a)
       scan.at.push_back(cuts.at_plane(face));
   }
-  const auto before = [&](const LineCut& x, const LineCut& y) {
-    return cuts.compare(x, y) < 0;
-  };
   window_->add_cuts(line, cuts, scan.at);
-  std::ranges::sort(scan.at, before);
-  const auto same = [&](const LineCut& x, const LineCut& y) {
-    if (cuts.compare(x, y) != 0) return false;
+  cuts.sort_unique(scan.at, [&](const LineCut& x, const LineCut& y) {
     const bool one_line = x.kind == LineCut::Kind::Side && y.kind == x.kind &&
                           eye_->scene().in_line(x.p, x.q, y.p) &&
                           eye_->scene().in_line(x.p, x.q, y.q);
     const bool sides = x.kind == LineCut::Kind::Side || y.kind == LineCut::Kind::Side;
     if (sides && !one_line)
       suspects_.push_back({-1, line, x.kind == LineCut::Kind::Side ? x : y, {}});
-    return true;
-  };
-  scan.at.erase(std::unique(scan.at.begin(), scan.at.end(), same), scan.at.end());
-  const auto rank = [&](const LineCut& cut) {
-    return std::ranges::lower_bound(scan.at, cut, before) - scan.at.begin();
-  };
+  });
 
   const std::size_t n = scan.at.size() - 1;
   std::vector<std::array<int, 2>> begins(n + 1);
   scan.containing.resize(n);
   for (const Cover& c : covers_) {
-    const auto from = rank(c.from);
-    const auto to = rank(c.to);
+    const auto from = cuts.rank(scan.at, c.from);
+    const auto to = cuts.rank(scan.at, c.to);
     if (!c.hides) {
       for (auto i = from; i < to; ++i) scan.containing[i].push_back(&c);
       continue;

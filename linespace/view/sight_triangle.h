@@ -9,6 +9,10 @@
 namespace sightline::internal {
 
 /// From a direction, the half-infinite strip on the eye's side of the line.
+///
+/// A second box test beside Shaft (linespace/space/shaft.h), which vertex views use: a
+/// Shaft is the hull of points that are doubles.  This has no end on a direction's side,
+/// and all of its corners may be rounded.
 class SightTriangle {
  public:
   SightTriangle(const EyeSpace& eye, int line);

@@ -319,19 +319,11 @@ void SourceView::view(const Line& line) {
         at.push_back(cuts.at_plane(face));
     }
   }
-  const auto before = [&](const LineCut& x, const LineCut& y) {
-    return cuts.compare(x, y) < 0;
-  };
-  std::ranges::sort(at, before);
-  at.erase(std::unique(at.begin(), at.end(),
-                       [&](const LineCut& x, const LineCut& y) {
-                         return cuts.compare(x, y) == 0;
-                       }),
-           at.end());
+  cuts.sort_unique(at, [](const LineCut&, const LineCut&) {});
   std::vector<Beside> beside(at.size() - 1);
   for (const Cover& c : covers_) {
-    const auto from = std::ranges::lower_bound(at, c.from, before) - at.begin();
-    const auto to = std::ranges::lower_bound(at, c.to, before) - at.begin();
+    const auto from = cuts.rank(at, c.from);
+    const auto to = cuts.rank(at, c.to);
     for (auto i = from; i < to; ++i) {
       for (int side = 0; side < 2; ++side) {
         if (!(side == 0 ? c.left : c.right)) continue;
