@@ -34,7 +34,7 @@ struct LitPixel {
 /// pixel's centre, and what the point on it sees of the light, exactly; the point is the
 /// nearest one of doubles, moved exactly onto the face's plane.  rays > 0: instead, that
 /// many random points of the source, uniform over its area, each asked whether it is
-/// seen; `seed` tells which.
+/// seen from a point 2^-40 of its coordinates' size before the face; `seed` tells which.
 /// The request's threads, budget, stop and progress are heard; throws Stopped.
 [[nodiscard]] std::vector<LitPixel> lit_picture(const OcclusionIndex& occlusion,
                                                 const BackprojectionIndex& light,

@@ -5,19 +5,6 @@
 #include <cmath>
 
 namespace sightline::internal {
-namespace {
-
-// Interpolation at the nodes of a triangle with corners on the unit circle, all sides of
-// one length, of a function with a_m >= |D^m f| / m!, is off by at most a_m times a
-// constant: f(x) less the interpolant is the sum of the remainders of Taylor's series
-// about x at the nodes x_i, times the shape functions l_i.  Linear: the sum of
-// l_i |x - x_i|^2 is 1 - |x|^2.
-constexpr double kLinear = 1;
-// Quadratic: the sum of |l_i| |x - x_i|^3 is below that; ElementTree.QuadraticConstant
-// looks for the largest.
-constexpr double kQuadratic = 0.79;
-
-}  // namespace
 
 const ElementPiece& ElementTree::find(Barycentric& place) const {
   int at = 0;
@@ -85,7 +72,7 @@ double ElementCutter::error(const SeenFormula& formula,
   axes.col(0) = x[0] - middle;
   axes.col(1) = (x[1] - x[2]) / std::sqrt(3.0);
   const Majorant bound = formula.bound(middle, axes, normal_);
-  return options_.order == 1 ? kLinear * bound.a[2] : kQuadratic * bound.a[3];
+  return options_.order == 1 ? kLinearError * bound.a[2] : kQuadraticError * bound.a[3];
 }
 
 // The side to halve: along it the bound is largest.

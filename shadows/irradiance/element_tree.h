@@ -43,6 +43,15 @@ struct ElementTree {
   [[nodiscard]] const ElementPiece& find(Barycentric& place) const;
 };
 
+/// Interpolation at the nodes of a triangle with corners on the unit circle, all sides of
+/// one length, of a function with a_m >= |D^m f| / m!, is off by at most a_m times a
+/// constant: f(x) less the interpolant is the sum of the remainders of Taylor's series
+/// about x at the nodes x_i, times the shape functions l_i.  Linear: the sum of
+/// l_i |x - x_i|^2 is 1 - |x|^2.
+inline constexpr double kLinearError = 1;
+/// Quadratic: the sum of |l_i| |x - x_i|^3 is below that.
+inline constexpr double kQuadraticError = 0.79;
+
 /// The value of the polynomial of degree 1 or 2.
 [[nodiscard]] double polynomial(const ElementTree::Nodes& values,
                                 const Barycentric& place, int order);

@@ -92,6 +92,9 @@ class Rays {
   Eigen::Vector3d forward_, right_, up_;
 };
 
+// Of the size of coordinates: far above the roundings of a point on a ray.
+constexpr double kHair = 0x1p-40;
+
 class Painter {
  public:
   Painter(const OcclusionIndex& occlusion, const BackprojectionIndex& light,
@@ -164,12 +167,15 @@ class Painter {
 
   [[nodiscard]] double sampled(const Point& hit, const Eigen::Vector3d& normal,
                                std::uint64_t seed) const {
+    // A hair before the face: rounding may have put the point behind it.
+    const double size = hit.cwiseAbs().sum() + camera_->eye.cwiseAbs().sum();
+    const Point start = hit + kHair * size * normal;
     std::mt19937_64 random(seed);
     double sum = 0;
     for (int i = 0; i < rays_; ++i) {
       Point s;
-      const double share = sampler_.share(hit, normal, random, s);
-      if (share > 0 && occlusion_->is_free(hit, s)) sum += share;
+      const double share = sampler_.share(start, normal, random, s);
+      if (share > 0 && occlusion_->is_free(start, s)) sum += share;
     }
     return sum / rays_;
   }

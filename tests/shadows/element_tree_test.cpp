@@ -56,8 +56,8 @@ TEST(ElementTree, QuadraticConstant) {
       most = std::max(most, sum);
     }
   }
-  EXPECT_LT(most, 0.789);
-  EXPECT_GT(most, 0.788);
+  EXPECT_LT(most + 1e-4, kQuadraticError);
+  EXPECT_GT(most, 0.99 * kQuadraticError);
 }
 
 TEST(ElementTree, PlacesFollowThePieces) {

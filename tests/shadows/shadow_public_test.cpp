@@ -278,5 +278,25 @@ TEST(ShadowPublic, SmoothPicturesAreNearExactOnes) {
   EXPECT_GT(between, static_cast<int>(exact.size()) / 4);
 }
 
+// Points on a slanting wall are rounded, half of them behind it: rays begin before it.
+// The rays of docs/pictures/soft_shadow_rays.png once left stripes of darkness on walls.
+TEST(ShadowPublic, RandomRaysOnASlantingWall) {
+  PolygonSoup soup;
+  add_lamp(soup, 1, 4);
+  add_sheet(soup, "wall", {{-3, 2, 0}, {3, 2.3, 0.1}, {0.1, 3.7, 5}});
+  const Lit lit(soup);
+  const OcclusionIndex occlusion(lit.scene);
+  const PictureCamera camera{{0, -4, 1.5}, {0, 3, 1.5}, {0, 0, 1}, 1, 41, 41};
+  const auto exact = lit_picture(occlusion, lit.index, lit.source, camera, 0, 1);
+  const auto rays = lit_picture(occlusion, lit.index, lit.source, camera, 64, 1);
+  int compared = 0;
+  for (std::size_t i = 0; i < exact.size(); ++i) {
+    if (exact[i].kind != LitPixel::Kind::Surface || exact[i].value < 0.01) continue;
+    EXPECT_NEAR(rays[i].value, exact[i].value, 0.5 * exact[i].value);
+    ++compared;
+  }
+  EXPECT_GT(compared, 200);
+}
+
 }  // namespace
 }  // namespace sightline
