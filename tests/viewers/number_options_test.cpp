@@ -139,6 +139,7 @@ std::vector<NumberOption> number_options() {
   }
   for (const char* name : {"--from", "--direction"}) add("analyse", name, points);
   add("look", "--window", {"#,-2,2,2", "-2,#,2,2", "-2,-2,#,2", "-2,-2,2,#"});
+  add("look", "--box", boxes);
   add("view", "--box", boxes);
   add("view", "--eye", points);
   add("view", "--look-at", points, "--eye 7,8,9");
@@ -214,7 +215,7 @@ TEST_F(NumberOptions, AreAllOfThem) {
     const std::string help = shell("$S " + std::string(command) + " --help").out;
     const std::regex option(
         "\n +(?:-., ?)?(--[a-z-]+) (?:N|S|R|L|M|W|SIZE|INT\\S*|W,H|"
-        "BOX|POINT|DEGREES|x,y,z|x0,y0,x1,y1|X,Y,Z)[ \n]");
+        "BOX|POINT|DEGREES|x,y,z|x0,y0,x1,y1|x0,y0,z0,x1,y1,z1|X,Y,Z)[ \n]");
     for (auto at = std::sregex_iterator(help.begin(), help.end(), option);
          at != std::sregex_iterator(); ++at) {
       told.insert(std::string(command) + " " + (*at)[1].str());
