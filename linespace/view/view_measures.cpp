@@ -253,8 +253,10 @@ ViewMeasures measure(const EyeSpace& eye, const ViewGraph& graph,
     const auto& edges = regions[r].half_edges;
     const bool small = edges.empty() || measurer.within_half_sphere(edges);
     long double value = small ? regions[r].value : measurer.angle_around(edges);
-    if (small && !edges.empty() && std::abs(value) < kCertainSign)
-      value = measurer.accurate_sum(edges);
+    // A hole of a sheet seen nearly edge-on is narrow, and may be wide.
+    const long double off_whole =
+        std::abs(std::remainder(value, static_cast<long double>(kSphere)));
+    if (!edges.empty() && off_whole < kCertainSign) value = measurer.accurate_sum(edges);
     measures.regions[r] = static_cast<double>(value > 0 ? value : value + kSphere);
   }
   return measures;

@@ -153,6 +153,7 @@ std::vector<NumberOption> number_options() {
       {.whole = true, .least = 1, .most = 1e6});
   add("shadows", "--seed", {"#"}, eye + towards + small, kSeed);
   add("look", "--window", {"#,-2,2,2", "-2,#,2,2", "-2,-2,#,2", "-2,-2,2,#"});
+  add("look", "--box", boxes);
   add("view", "--box", boxes);
   add("view", "--eye", points);
   add("view", "--look-at", points, "--eye 7,8,9");
@@ -230,7 +231,7 @@ TEST_F(NumberOptions, AreAllOfThem) {
     const std::string help = shell("$S " + std::string(command) + " --help").out;
     const std::regex option(
         "\n +(?:-., ?)?(--[a-z-]+) (?:N|S|R|L|M|W|E|SIZE|WxH|INT\\S*|W,H|"
-        "BOX|POINT|DEGREES|x,y,z|x0,y0,x1,y1|X,Y,Z)[ \n]");
+        "BOX|POINT|DEGREES|x,y,z|x0,y0,x1,y1|x0,y0,z0,x1,y1,z1|X,Y,Z)[ \n]");
     for (auto at = std::sregex_iterator(help.begin(), help.end(), option);
          at != std::sregex_iterator(); ++at) {
       told.insert(std::string(command) + " " + (*at)[1].str());
