@@ -12,9 +12,8 @@ class FreeLinesOnScenes : public ::testing::TestWithParam<int> {};
 
 TEST_P(FreeLinesOnScenes, AgreesWithFormFactors) {
   const auto scenes = testing::form_factor_scenes();
-  // The second way is not quite there: by upright sheets it is off by up to
-             // 8e-10.
-      testing::expect_two_ways_agree(scenes.at(GetParam()), 6, 2e-9);
+  // The second way is not quite there: it is off by up to 8e-10 by upright sheets.
+  testing::expect_two_ways_agree(scenes.at(GetParam()), 6, 2e-9);
 }
 INSTANTIATE_TEST_SUITE_P(Scenes, FreeLinesOnScenes, ::testing::Range(0, 56));
 
