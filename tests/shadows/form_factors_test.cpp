@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "linespace/face_visibility.h"
+#include "shadows/backprojection.h"
 #include "shadows/polygon_form_factor.h"
 
 namespace sightline {
@@ -453,6 +454,67 @@ TEST(FormFactorCases, SkyBesideSurfaces) {
     EXPECT_LE(p.sky, p.outside + 1e-12);
     EXPECT_NEAR(p.sky + p.factors[1], 0.5 * (1 + normal.normalized().z()), 0.05);
   }
+}
+
+// Sensors on a tilted roof, their coordinates computed in doubles: those that rounding
+// has put behind the roof see its back, and nothing of the sky.  Put exactly on it, as
+// "on" does, all see the same.
+TEST(FormFactorCases, SensorsOnATiltedRoof) {
+  SceneMaker maker;
+  const double length = 7.3, depth = 4.1, rise = 2.7;
+  maker.polygon("roof", {{0, 0, 3.1},
+                         {length, 0, 3.1},
+                         {length, depth, 3.1 + rise},
+                         {0, depth, 3.1 + rise}});
+  maker.sheet("ground", 2, 0, true, {-20, 20}, {-20, 20});
+  const Scene scene = maker.scene();
+  const PointFactorIndex index(scene, surfaces_of(scene, {}));
+  const Eigen::Vector3d normal{0, -rise, depth}, up{0, 0, 1};
+  const double open = 0.5 * (1 + normal.normalized().z());
+  int behind = 0;
+  for (int i = 1; i < 20; ++i) {
+    const double t = i / 20.;
+    const Point written(length * t, depth * t, 3.1 + rise * t);
+    const PointFactors rounded = index.at(eye_at(written), normal, up);
+    if (rounded.sky < 0.5 * open) ++behind;
+    const ShadowPoint on = shadow_point_on(scene, 0, shadow_point(written).at);
+    const PointFactors p = index.at({Viewpoint::Kind::Eye, on.at}, normal, up);
+    EXPECT_NEAR(p.sky, open, 1e-12) << i;
+    EXPECT_EQ(p.factors[0], 0) << i;
+    EXPECT_NEAR(p.factors[1] + p.outside, 1, 1e-12) << i;
+  }
+  EXPECT_GT(behind, 2);
+}
+
+// Daylight through a window with its pane: the pane is a face like all others, and takes
+// all that would leave.  Without it what leaves the room is the factor to the opening.
+TEST(FormFactorCases, DaylightThroughAWindowWithItsPane) {
+  SceneMaker maker;
+  maker.sheet("floor", 2, 0, true, {0, 4}, {0, 3});
+  maker.sheet("room", 2, 2.5, false, {0, 4}, {0, 3});
+  for (const int axis : {0, 1}) {
+    const double far = axis == 0 ? 4 : 3;
+    const std::array<double, 2> y{0, 3}, x{0, 4}, z{0, 2.5};
+    if (axis == 0) maker.sheet("room", 0, far, false, y, z);
+    if (axis == 1) maker.sheet("room", 1, 0, true, z, x);
+    if (axis == 1) maker.sheet("room", 1, far, false, z, x);
+  }
+  // The wall x = 0 around the opening from y 1 to 2, z 1 to 2.
+  maker.sheet("room", 0, 0, true, {0, 3}, {0, 1})
+      .sheet("room", 0, 0, true, {0, 3}, {2, 2.5});
+  maker.sheet("room", 0, 0, true, {0, 1}, {1, 2})
+      .sheet("room", 0, 0, true, {2, 3}, {1, 2});
+  const std::vector<Point> floor{{0, 0, 0}, {4, 0, 0}, {4, 3, 0}, {0, 3, 0}};
+  const std::vector<Point> opening{{0, 1, 1}, {0, 2, 1}, {0, 2, 2}, {0, 1, 2}};
+  const double daylight = polygon_form_factor(floor, opening).factor;
+  const FormFactors open = factors(SceneMaker(maker).scene());
+  EXPECT_NEAR(open.rows[0].outside, daylight, 1e-10);
+  maker.sheet("pane", 0, 0, true, {1, 2}, {1, 2});
+  const FormFactors closed = factors(maker.scene());
+  EXPECT_EQ(closed.names[2], "pane");
+  EXPECT_NEAR(closed.at(0, 2), daylight, 1e-10);
+  EXPECT_EQ(closed.rows[0].outside, 0);
+  expect_consistent(closed, 1e-9);
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ inline void expect_two_ways_agree(const FormFactorScene& s, int most_pairs,
     }
     for (int j = i + 1; j < n && pairs < most_pairs; ++j) {
       // An azimuth costs most: nothing that is wrong by less than this is looked for.
-      const TwoWays both = two_ways(f, surfaces, s.soup, faces, i, j, 0.5 * within);
+      const TwoWays both = two_ways(f, surfaces, s.soup, faces, i, j, 0.05 * within);
       if (both.library == 0 && both.free_lines == 0) continue;
       ++pairs;
       EXPECT_NEAR(both.library, both.free_lines, within)

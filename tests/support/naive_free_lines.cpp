@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <queue>
+#include <set>
 
 #include "tests/support/exact.h"
 
@@ -148,6 +149,7 @@ class Meridian {
         corners_.push_back({ap, bp, p.z()});
         if (bp < bq) sides_.push_back({bp, bq, ap, aq, p.z(), q.z(), k});
         if (bp > bq) sides_.push_back({bq, bp, aq, ap, q.z(), p.z(), k});
+        if (std::abs(bp - bq) < 1e-12) along_.push_back(bp);
       }
     }
     find_range();
@@ -183,6 +185,7 @@ class Meridian {
     for (std::size_t f = 0; f < sides_.size(); ++f) {
       for (std::size_t g = f + 1; g < sides_.size(); ++g) {
         if (!overlap(sides_[f], sides_[g])) continue;
+        add_meetings_along(sides_[f], sides_[g], result);
         for (std::size_t h = g + 1; h < sides_.size(); ++h) {
           if (!overlap(sides_[f], sides_[h]) || !overlap(sides_[g], sides_[h])) continue;
           if (sides_[f].polygon == sides_[h].polygon) continue;
@@ -277,6 +280,14 @@ class Meridian {
     }
     result.push_back(slope);
   }
+  /// Two sides meet on a third that runs along the meridian.
+  void add_meetings_along(const Side& f, const Side& g, std::vector<double>& result) {
+    for (const double b : along_) {
+      if (b < std::max(f.b0, g.b0) || b > std::min(f.b1, g.b1)) continue;
+      const double slope = (f.a(b) - g.a(b)) / (f.z(b) - g.z(b));
+      add_kink(slope, b, f.moved(b, slope), result);
+    }
+  }
   void add_meeting(const Side& f, const Side& g, const Side& h,
                    std::vector<double>& result) {
     // Over b the moved sides are a = A + B b with A and B linear in the slope t.  They
@@ -311,6 +322,7 @@ class Meridian {
   std::size_t count_;
   std::vector<Point> corners_;  ///< a, b, z
   std::vector<Side> sides_;
+  std::vector<double> along_;  ///< b of sides along the meridian
   double low_ = 0, high_ = 0, least_ = 0, most_ = 0;
   std::vector<double> strips_;
   std::vector<std::array<double, 2>> covers_;
@@ -425,12 +437,15 @@ std::vector<double> azimuths(const Setting& s) {
     if (w.x() != 0 || w.y() != 0) result.push_back(std::atan2(w.y(), w.x()));
   };
   std::vector<Point> corners, normals;
+  std::set<std::array<double, 2>> upright;
   for (const Polygon& polygon : s.polygons) {
     normals.push_back(normal_of(polygon));
     for (std::size_t i = 0; i < polygon.size(); ++i) {
       const Point side = polygon[(i + 1) % polygon.size()] - polygon[i];
       add(side);
       add(-side);
+      if (side.x() == 0 && side.y() == 0)
+        upright.insert({polygon[i].x(), polygon[i].y()});
       corners.push_back(polygon[i]);
     }
   }
@@ -448,6 +463,11 @@ std::vector<double> azimuths(const Setting& s) {
   for (const Point& u : corners) {
     for (const Point& v : corners) {
       const Point w = v - u;
+      // A corner beside an upright side passes it at all its heights at once.
+      if (upright.contains({v.x(), v.y()})) {
+        add(w);
+        add(-w);
+      }
       if (w.z() > 0 && s.to_normal.dot(w) < 0 && is_free(u, w)) add(w);
     }
   }
