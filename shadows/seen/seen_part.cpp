@@ -20,6 +20,8 @@ SeenPart seen_part(const SourceView& view) {
     doubles[seen_on_left ? e.ends : std::array{e.ends[1], e.ends[0]}].push_back(e);
   }
   for (auto& [ends, edges] : doubles) {
+    const auto carries = [&](const JoinedEdge& e) { return view.only_carries(e.piece); };
+    if (!std::ranges::all_of(edges, carries)) std::erase_if(edges, carries);
     std::ranges::sort(edges, {}, &JoinedEdge::line);
     SeenPart::Edge edge{ends[0], ends[1], {}, edges.front().ends == ends};
     for (const JoinedEdge& e : edges) edge.lines.push_back(e.line);
@@ -96,6 +98,17 @@ class Namer {
     return {SeenSide::Kind::Edge, source_->scene().whole_line(line)};
   }
 
+  /// The whole line lies in the plane of the horizon, which has no line of its own where
+  /// it only touches the source.
+  [[nodiscard]] bool along_touching_horizon(int line) const {
+    const Horizon* horizon = view_->horizon();
+    if (horizon == nullptr || view_->horizon_line() >= 0) return false;
+    const ViewScene& scene = view_->eye().scene();
+    return std::ranges::all_of(scene.lines()[line].ends, [&](int p) {
+      return horizon->height(scene.exact(p)) == 0;
+    });
+  }
+
   /// The source face that has the line as a side; -1 where none has.
   [[nodiscard]] int source_face(int line) const {
     const auto it = source_sides_.find(line);
@@ -161,6 +174,8 @@ std::vector<SeenBoundary> seen_boundaries(const SourceScene& source,
     for (const int e : walk) {
       std::vector<SeenSide> names;
       for (const int line : part.edges[e].lines) names.push_back(namer.name(line));
+      if (namer.along_touching_horizon(part.edges[e].lines.front()))
+        names.push_back({SeenSide::Kind::Horizon, 0});
       std::ranges::sort(names);
       names.erase(std::ranges::unique(names).begin(), names.end());
       // A side that goes on straight is one.
