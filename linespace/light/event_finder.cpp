@@ -92,6 +92,10 @@ void EventFinder::name_pencil(const PencilPoint& p, const AnySegment& e,
   };
   const auto consider = [&](const AnySegment& s) {
     if (s.line == e.line || !in_plane(*s.line)) return;
+    // An edge that no line of the pencil grazes is not seen along another one.
+    if (s.edge >= 0 &&
+        never_grazes(space_, space_.edges()[s.edge], *e.line->ends[0], *e.line->ends[1]))
+      return;
     const int facet = common_facet(s, e);
     if (trace.kind == LightEventKind::Face ||
         (trace.kind == LightEventKind::EE && facet < 0))
@@ -147,8 +151,9 @@ void EventFinder::visit_pair(const AnySegment& a, const AnySegment& m,
 
 void EventFinder::add_regulus(const AnySegment& a, const AnySegment& m,
                               const AnySegment& b) {
+  // Two edges of a facet that rounding has bent may cross in a view, though.
   const auto convex = [&](const AnySegment& x, const AnySegment& y) {
-    return x.edge >= 0 && y.edge >= 0 &&
+    return x.edge >= 0 && y.edge >= 0 && common_facet(x, y) < 0 &&
            share_convex(space_.edges()[x.edge].objects, space_.edges()[y.edge].objects);
   };
   if (convex(a, m) || convex(a, b) || convex(m, b)) return;

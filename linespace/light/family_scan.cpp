@@ -331,16 +331,22 @@ std::optional<std::vector<FamilyScan::Met>> FamilyScan::first_met(
   return met;
 }
 
-// Strictly.
+// Strictly, or through one seam, beyond which the surface goes on: a whole pencil may lie
+// in the plane of one.
 bool FamilyScan::passes_inside(const FamilyLine& line, int face) const {
   Sign first = Sign::Zero;
+  bool on_seam = false;
   for (const LightFace::Side& side : space_.faces()[face].sides) {
     const Sign s = side.forward ? line.side_to(*side.line) : -line.side_to(*side.line);
-    if (s == Sign::Zero) return false;
+    if (s == Sign::Zero) {
+      if (!side.seam || on_seam) return false;
+      on_seam = true;
+      continue;
+    }
     if (first == Sign::Zero) first = s;
     if (s != first) return false;
   }
-  return true;
+  return first != Sign::Zero;
 }
 
 FamilyScan::Height FamilyScan::height_of_face(const FamilyLine& line, int face) const {

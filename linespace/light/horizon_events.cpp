@@ -206,12 +206,16 @@ std::vector<HorizonPlane> horizon_planes(const PatchSpace& at,
     const LightPlane& plane = at.space.faces()[faces[0]].plane;
     bool before = false;
     bool behind = false;
+    int on_it = 0;
     for (const Point& p : at.patch.hull) {
       const Sign s = sign_at(plane, light_point(p));
       before = before || s == Sign::Positive;
       behind = behind || s == Sign::Negative;
+      on_it += s == Sign::Zero ? 1 : 0;
     }
-    if (before && behind) out.push_back({facet, std::move(faces)});
+    const bool cut = before && behind;
+    const bool touched = before != behind && on_it > 1;
+    if (cut || touched) out.push_back({facet, std::move(faces)});
   };
   for (std::size_t i = 0; i < scene.facets().size(); ++i) {
     const Facet& facet = scene.facets()[i];

@@ -1,5 +1,6 @@
-// Events at the horizon of a receiver whose plane cuts the source: two things that cross
-// the plane, or lie in it, are seen in one, by lines in the plane itself.
+// Events at the horizon of a receiver whose plane cuts the source, or has a side of it:
+// two things that cross the plane, or lie in it, are seen in one, by lines in the plane
+// itself.
 
 #pragma once
 
@@ -16,7 +17,8 @@ struct HorizonPlane {
   int facet;
   std::vector<int> faces;
 };
-/// The horizon planes that cut the patch: it has points strictly on both sides of them.
+/// The horizon planes that cut the patch, which has points strictly on both sides of
+/// them, or touch it along a side of its hull.
 [[nodiscard]] std::vector<HorizonPlane> horizon_planes(
     const PatchSpace& at, std::span<const std::uint8_t> front,
     std::span<const std::uint8_t> back);

@@ -97,7 +97,8 @@ void LightSpace::add_faces() {
     std::vector<Point> corners;
     for (std::size_t k = 0; k < p.size(); ++k) {
       const int q = p[(k + 1) % p.size()];
-      face.sides.push_back({line_between(p[k], q), p[k] < q});
+      const bool seam = scene_.edge_of_side(static_cast<int>(f), static_cast<int>(k)) < 0;
+      face.sides.push_back({line_between(p[k], q), p[k] < q, seam});
       corners.push_back(scene_.point(p[k]));
     }
     face.box = box_of(corners);

@@ -21,6 +21,7 @@ struct LightFace {
   struct Side {
     const LightLine* line;
     bool forward;  ///< the line's ends are in the face's order
+    bool seam;     ///< no edge: the facet goes on beyond it
   };
   std::vector<Side> sides;
   Box box;

@@ -159,11 +159,11 @@ class MeshMaker {
       Rational h = rational(n[3]);
       for (int i = 0; i < 3; ++i) h += rational(n[i]) * x[i];
       if (h <= 0) continue;
-      for (const LightPoint* c : patch.corners) {
+      // Not its corners, of which some are feet of blockers beside the source.
+      for (const Point& c : patch.hull) {
         Rational above = 0;
-        const Rational w = rational(c->exact[3]);
         for (int i = 0; i < 3; ++i)
-          above += plane_->normal()[i] * (rational(c->exact[i]) / w - x[i]);
+          above += plane_->normal()[i] * (Rational(c[i]) - x[i]);
         if (above > 0) return false;
       }
     }

@@ -64,12 +64,24 @@ class Namer {
       if (lines.size() == 1 || !is_diagonal(line)) names.push_back(name(line));
     }
     if (names.empty()) names.push_back(name(lines.front()));
+    if (along_touching_horizon(lines.front()))
+      names.push_back({SeenSide::Kind::Horizon, 0});
     std::ranges::sort(names);
     names.erase(std::ranges::unique(names).begin(), names.end());
     return names;
   }
 
  private:
+  // The whole line lies in the plane of the horizon, which has no line of its own where
+  // it only touches the source.
+  [[nodiscard]] bool along_touching_horizon(int line) const {
+    const Horizon* horizon = view_->horizon();
+    if (horizon == nullptr || view_->horizon_line() >= 0) return false;
+    const ViewScene& scene = view_->eye().scene();
+    return std::ranges::all_of(scene.lines()[line].ends, [&](int p) {
+      return horizon->height(scene.exact(p)) == 0;
+    });
+  }
   [[nodiscard]] bool is_diagonal(int line) const {
     const auto it = source_sides_.find(line);
     return it != source_sides_.end() && it->second->twin_line >= 0;

@@ -17,6 +17,8 @@ SeenPart seen_part(const SourceView& view) {
     doubles[seen_on_left ? e.ends : std::array{e.ends[1], e.ends[0]}].push_back(e);
   }
   for (auto& [ends, edges] : doubles) {
+    const auto carries = [&](const JoinedEdge& e) { return view.only_carries(e.piece); };
+    if (!std::ranges::all_of(edges, carries)) std::erase_if(edges, carries);
     std::ranges::sort(edges, {}, &JoinedEdge::line);
     SeenPart::Edge edge{ends[0], ends[1], {}, {}, edges.front().ends == ends};
     for (const JoinedEdge& e : edges) {

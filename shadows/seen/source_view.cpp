@@ -285,6 +285,30 @@ std::array<bool, 2> SourceView::into_material(int line, const LineCuts& cuts,
   return {question_.star->blocked(way, left), question_.star->blocked(way, right)};
 }
 
+// A side of a facet that the eye is on, where that meets a face that is not edge-on: a
+// sheet that the eye is on hides nothing, and neither do its sides.
+bool SourceView::bounds_star(int line) const {
+  if (!question_.star->bounds(line)) return false;
+  const int edge = scene_.lines()[line].name.edge;
+  if (edge < 0) return true;
+  return std::ranges::any_of(
+      scene_.scene().edges()[edge].sides,
+      [&](const Edge::Side& side) { return eye_->front(side.face) != Sign::Zero; });
+}
+
+// The stretch of the scene's line lies on the eye's side of the plane, which does not
+// pass between its ends.
+bool SourceView::before_plane(int line, const LineCuts& cuts, const LineCut& from,
+                              const LineCut& to) const {
+  const auto [a, b] = scene_.lines()[line].ends;
+  const Sign at_a = question_.source->side(*question_.plane, a);
+  const Sign at_b = question_.source->side(*question_.plane, b);
+  if (at_a != Sign::Positive && at_b != Sign::Positive) return false;
+  if (at_a != Sign::Negative && at_b != Sign::Negative) return true;
+  const LineCut cut = cuts.at_plane(question_.plane->faces.front());
+  return at_a == Sign::Positive ? !later(cuts, to, cut) : !later(cuts, cut, from);
+}
+
 // Scans a line from its first end to its second.
 void SourceView::view(const Line& line) {
   if (eye_->end_on(line.line)) return;
@@ -312,12 +336,14 @@ void SourceView::view(const Line& line) {
     if (c.from.kind != LineCut::Kind::Start) at.push_back(c.from);
     if (c.to.kind != LineCut::Kind::Finish) at.push_back(c.to);
   }
+  const auto cut_by_plane = [&](int face) {
+    const Sign at_a = scene_.plane_side(face, ends[0]);
+    if (at_a != Sign::Zero && scene_.plane_side(face, ends[1]) == -at_a)
+      at.push_back(cuts.at_plane(face));
+  };
   if (ask_star_) {
-    for (const int face : question_.star->faces()) {
-      const Sign at_a = scene_.plane_side(face, ends[0]);
-      if (at_a != Sign::Zero && scene_.plane_side(face, ends[1]) == -at_a)
-        at.push_back(cuts.at_plane(face));
-    }
+    for (const int face : question_.star->faces()) cut_by_plane(face);
+    if (bounds_star(line.line)) cut_by_plane(question_.plane->faces.front());
   }
   cuts.sort_unique(at, [](const LineCut&, const LineCut&) {});
   std::vector<Beside> beside(at.size() - 1);
@@ -328,7 +354,8 @@ void SourceView::view(const Line& line) {
       for (int side = 0; side < 2; ++side) {
         if (!(side == 0 ? c.left : c.right)) continue;
         ++(c.is_source ? beside[i].source : beside[i].hidden)[side];
-        if (c.own) ++beside[i].own[side];
+        // A side between two source faces bounds nothing.
+        if (c.own) ++(c.is_source ? beside[i].own_source : beside[i].own)[side];
       }
     }
   }
@@ -349,18 +376,23 @@ void SourceView::view(const Line& line) {
     if (seen[0] == seen[1]) continue;
     // A line of which no own shade ends here only happens to be seen in line.
     const int seen_side = seen[0] ? 0 : 1;
-    const bool is_source_side = beside[i].own[seen_side] > 0 && !in_source[1 - seen_side];
+    const bool is_source_side =
+        beside[i].own_source[seen_side] > 0 && !in_source[1 - seen_side];
     const bool is_star_side = blocked[1 - seen_side] && question_.star->bounds(line.line);
     if (beside[i].own[1 - seen_side] == 0 && !is_source_side && !is_star_side) continue;
+    const bool only_carries =
+        beside[i].own[1 - seen_side] == 0 && !is_source_side &&
+        !(bounds_star(line.line) && before_plane(line.line, cuts, at[i], at[i + 1]));
     LinePiece piece{line.line, at[i], at[i + 1], {}, {}};
     piece.left.blocked = !seen[0];
     piece.right.blocked = !seen[1];
     if (!pieces_.empty() && pieces_.back().line == piece.line &&
-        pieces_.back().left == piece.left &&
+        pieces_.back().left == piece.left && only_carries_.back() == only_carries &&
         cuts.compare(pieces_.back().to, piece.from) == 0) {
       pieces_.back().to = piece.to;
     } else {
       pieces_.push_back(piece);
+      only_carries_.push_back(only_carries);
     }
   }
 }

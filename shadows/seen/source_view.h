@@ -35,12 +35,17 @@ class SourceView {
   /// The part seen lies on the side of a piece that is not `blocked`.  Pieces of several
   /// lines may coincide.
   [[nodiscard]] const std::vector<LinePiece>& pieces() const { return pieces_; }
+  /// The piece is of a side of a facet that the eye is on, in line with what bounds the
+  /// part seen: itself beyond the source, or a side of a sheet, it hides nothing.
+  [[nodiscard]] bool only_carries(int piece) const { return only_carries_[piece]; }
   /// The first line of cuts of blockers with the plane, cut i being of face cut_face(i).
   [[nodiscard]] int first_cut_line() const { return first_cut_line_; }
   [[nodiscard]] int cut_face(int i) const { return cut_faces_[i]; }
   /// Faces that the eye sees edge-on, with parts of the source on both sides, that lie in
   /// the way or may do so.
   [[nodiscard]] const std::vector<int>& edge_on_faces() const { return edge_on_faces_; }
+  /// nullptr where there is none.
+  [[nodiscard]] const Horizon* horizon() const { return question_.horizon; }
   /// The horizon's line; -1 where it does not cross the plane's faces.
   [[nodiscard]] int horizon_line() const { return horizon_line_; }
 
@@ -58,7 +63,7 @@ class SourceView {
   };
   // Between two neighbouring positions, on the left and on the right.
   struct Beside {
-    std::array<int, 2> source{}, hidden{}, own{};
+    std::array<int, 2> source{}, hidden{}, own{}, own_source{};
   };
 
   void add_horizon(std::vector<ExactPoint>& points,
@@ -76,6 +81,9 @@ class SourceView {
   [[nodiscard]] std::array<bool, 2> into_material(int line, const LineCuts& cuts,
                                                   const LineCut& from,
                                                   const LineCut& to) const;
+  [[nodiscard]] bool bounds_star(int line) const;
+  [[nodiscard]] bool before_plane(int line, const LineCuts& cuts, const LineCut& from,
+                                  const LineCut& to) const;
 
   Question question_;
   ViewScene scene_;
@@ -87,6 +95,7 @@ class SourceView {
   bool ask_star_ = false;  // sight into material is free for a part of the source only
   bool any_seen_ = false, any_hidden_ = false;
   std::vector<LinePiece> pieces_;
+  std::vector<bool> only_carries_;  // of pieces
   // Scratch.
   std::vector<Cover> covers_;
   std::vector<std::array<Sign, 2>> corner_signs_;  // by side: Positive on the right

@@ -46,27 +46,14 @@ int face_of(const Scene& scene, const ShadowMesh& mesh) {
   return *std::ranges::min_element(faces, {}, off);
 }
 
-// Edges that are in line with the horizon or with a side of the source are left out: the
-// mesh does not know all places on the receiver where such an edge begins or ends.
 std::string told(const std::vector<SeenBoundary>& boundaries) {
   std::ostringstream out;
   for (const SeenBoundary& b : boundaries) {
     out << b.source_face << ':';
-    std::vector<std::string> sides;
     for (const auto& names : b.sides) {
-      const bool bounded = std::ranges::any_of(names, [](const SeenSide& n) {
-        return n.kind == SeenSide::Kind::Horizon || n.kind == SeenSide::Kind::Source;
-      });
-      std::ostringstream side;
-      for (const SeenSide& n : names) {
-        if (!bounded || n.kind != SeenSide::Kind::Edge)
-          side << "SECH"[static_cast<int>(n.kind)] << n.id;
-      }
-      if (sides.empty() || side.str() != sides.back()) sides.push_back(side.str());
+      out << ' ';
+      for (const SeenSide& n : names) out << "SECH"[static_cast<int>(n.kind)] << n.id;
     }
-    if (sides.size() > 1 && sides.front() == sides.back()) sides.pop_back();
-    std::ranges::rotate(sides, std::ranges::min_element(sides));
-    for (const std::string& side : sides) out << ' ' << side;
     out << " | ";
   }
   return out.str();

@@ -215,7 +215,17 @@ class Structure {
     for (const Stretch& s : minus) add(s);
     const auto known = sides_.find(line);
     if (known != sides_.end()) {
-      for (const Stretch& s : known->second) add(s);
+      for (const Stretch& s : known->second) {
+        add(s);
+        // Where its face passes through the plane of the light.
+        const std::optional<Ray> nearer = rays_.before(s.face, source);
+        if (!nearer || canonical(*nearer) == line) continue;
+        const Vec3 way = cross(nearer->rational(), line.rational());
+        for (const Ray& r : {Ray(way), Ray(Rational(-1) * way)}) {
+          if (is_before(line, s.begin, r) && is_before(line, r, s.end))
+            add({s.face, r, r});
+        }
+      }
     }
     for (int f = 0; f < static_cast<int>(faces().size()); ++f) {
       if (const auto s = cut_of(f, source, line)) add(*s);
