@@ -306,7 +306,8 @@ bool SourceView::before_plane(int line, const LineCuts& cuts, const LineCut& fro
   if (at_a != Sign::Positive && at_b != Sign::Positive) return false;
   if (at_a != Sign::Negative && at_b != Sign::Negative) return true;
   const LineCut cut = cuts.at_plane(question_.plane->faces.front());
-  return at_a == Sign::Positive ? !later(cuts, to, cut) : !later(cuts, cut, from);
+  return at_a == Sign::Positive ? cuts.compare(to, cut) <= 0
+                                : cuts.compare(cut, from) <= 0;
 }
 
 // Scans a line from its first end to its second.
