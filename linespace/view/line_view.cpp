@@ -220,7 +220,7 @@ std::optional<LineViewer::Cover> LineViewer::overlap(int line, int face,
 bool LineViewer::narrow_to_face(Cover& cover, int face, const LineCuts& cuts,
                                 const std::array<Sign, 2>& before) {
   const ViewScene& scene = eye_->scene();
-  const auto corners = scene.scene().face_points(face);
+  const auto corners = scene.corners(face);
   const std::size_t n = corners.size();
   const auto next = [&](std::size_t k) { return k + 1 < n ? k + 1 : 0; };
   const auto corners_of = [&](std::size_t k) {

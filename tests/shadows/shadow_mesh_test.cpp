@@ -78,7 +78,7 @@ TEST(ShadowMesh, EveryFaceSeesTheLightAsItsStructureSays) {
   EXPECT_NEAR(ground.umbra_area + ground.penumbra_area + ground.lit_area, 256, 1e-10);
   EXPECT_EQ(ground.meshes[0].faces.size(), 38u);
   EXPECT_EQ(shadows.structures.size(), 37u);
-  const Kinds expected{.boundary = 9, .contact = 4, .face = 4, .ee = 28, .ev = 40};
+  const Kinds expected{.boundary = 9, .contact = 4, .face = 4, .ee = 27, .ev = 43};
   EXPECT_EQ(kinds(ground.meshes[0]), expected.counts());
 }
 

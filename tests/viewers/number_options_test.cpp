@@ -119,6 +119,18 @@ std::vector<NumberOption> number_options() {
     all.push_back({command, "--budget", kAboveZero});
   }
   all.push_back({"view", "--budget", kAboveZero});
+  const std::string few = "--samples 8 ";
+  all.push_back({"aspects", "--threads", kThreads, "#", few});
+  all.push_back({"aspects", "--budget", kAboveZero, "#", few});
+  all.push_back({"aspects", "--seed", kSeed, "#", few + "--sampling random"});
+  const Numbers samples{.whole = true, .least = 1, .most = 1e8};
+  all.push_back({"aspects", "--samples", samples, "#", "--budget 1"});
+  const Numbers checks{.whole = true, .least = 0, .most = 1e8};
+  all.push_back({"aspects", "--check", checks, "#", few + "--budget 1"});
+  const Numbers lines{.whole = true, .least = 2, .most = 0x1p62};
+  all.push_back({"formfactors", "--lines", lines, "#", "--budget 1"});
+  all.push_back({"formfactors", "--seed", kSeed, "#", "--lines 1000"});
+  all.push_back({"shadows", "--feature-size", kFromZero});
   const auto add = [&all](const std::string& command, const std::string& name,
                           const std::vector<std::string>& values,
                           const std::string& with = "", const Numbers& numbers = {}) {
@@ -154,6 +166,7 @@ std::vector<NumberOption> number_options() {
   add("shadows", "--seed", {"#"}, eye + towards + small, kSeed);
   add("look", "--window", {"#,-2,2,2", "-2,#,2,2", "-2,-2,#,2", "-2,-2,2,#"});
   add("look", "--box", boxes);
+  add("aspects", "--bounds", boxes, few);
   add("view", "--box", boxes);
   add("view", "--eye", points);
   add("view", "--look-at", points, "--eye 7,8,9");
@@ -177,6 +190,7 @@ class NumberOptions : public sightline::test::Shell {
         {"shadows", "shadows s.obj --light b --receivers a --json -"},
         {"formfactors", "formfactors s.obj --json -"},
         {"analyse", "analyse s.obj --json - -o out"},
+        {"aspects", "aspects s.obj --projection perspective --method sampled --json -"},
         {"view", "view s.obj --png out.png"},
         {"transversals", "transversals t.json --json -"},
         {"stab", "stab p.json --json -"},
@@ -226,8 +240,9 @@ TEST_F(NumberOptions, AreAllOfThem) {
     known.insert(option.command + " " + option.name);
   }
   std::set<std::string> told;
-  for (const char* command : {"info", "look", "skeleton", "shadows", "formfactors",
-                              "analyse", "view", "transversals", "stab", "visible"}) {
+  for (const char* command :
+       {"info", "look", "skeleton", "shadows", "formfactors", "aspects", "analyse",
+        "view", "transversals", "stab", "visible"}) {
     const std::string help = shell("$S " + std::string(command) + " --help").out;
     const std::regex option(
         "\n +(?:-., ?)?(--[a-z-]+) (?:N|S|R|L|M|W|E|SIZE|WxH|INT\\S*|W,H|"
@@ -269,11 +284,13 @@ TEST_F(NumberOptions, LeaveTheFileBehindThemAlone) {
   std::vector<std::array<std::string, 2>> options;  // with what begins the command line
   for (const NumberOption& option : number_options()) {
     std::string value = option.value;
-    value.replace(value.find('#'), 1,
-                  option.name == "--size" || option.name == "--pixels"  ? "60"
-                  : option.name == "--accuracy"                         ? "0.1"
-                  : option.name == "--box" || option.name == "--window" ? "0"
-                                                                        : "2");
+    value.replace(
+        value.find('#'), 1,
+        option.name == "--size" || option.name == "--pixels" ? "60"
+        : option.name == "--accuracy"                        ? "0.1"
+        : option.name == "--box" || option.name == "--window" || option.name == "--bounds"
+            ? "0"
+            : "2");
     options.push_back({option.command, option.with + " " + option.name + " " + value});
   }
   options.push_back({"skeleton", "--kinds EV"});
@@ -285,11 +302,17 @@ TEST_F(NumberOptions, LeaveTheFileBehindThemAlone) {
   options.push_back({"shadows", "--both-sides b"});
   options.push_back({"formfactors", "--groups a"});
   const std::map<std::string, std::string> rest{
-      {"info", "s.obj --json -"},      {"skeleton", "s.obj --json -"},
-      {"look", "s.obj --from 7,8,9"},  {"analyse", "s.obj -o out"},
-      {"shadows", "s.obj --light b"},  {"formfactors", "s.obj"},
-      {"view", "s.obj --png out.png"}, {"transversals", "t.json --list"},
-      {"stab", "p.json --list"},       {"visible", "s.obj a b --json -"}};
+      {"info", "s.obj --json -"},
+      {"skeleton", "s.obj --json -"},
+      {"look", "s.obj --from 7,8,9"},
+      {"analyse", "s.obj -o out"},
+      {"aspects", "s.obj --projection perspective --method sampled"},
+      {"shadows", "s.obj --light b"},
+      {"formfactors", "s.obj"},
+      {"view", "s.obj --png out.png"},
+      {"transversals", "t.json --list"},
+      {"stab", "p.json --list"},
+      {"visible", "s.obj a b --json -"}};
   for (const auto& [command, option] : options) {
     // A report takes a second.
     if (command == "analyse" && option != "--only skeleton") continue;

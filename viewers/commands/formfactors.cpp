@@ -353,6 +353,7 @@ Command add_formfactors_command(CLI::App& app) {
   add_surface_options(*command, *options);
   add_answer_options(*command, *options);
   add_common_options(*command, *options);
+  command->remove_option(command->get_option("--vtk"));  // a matrix has no VTK files
   command->footer(
       "Surfaces send out and receive by their fronts; all faces of the scene block.  Row "
       "i "

@@ -116,6 +116,7 @@ Command add_aspects_command(CLI::App& app) {
   command
       ->add_option("--samples", options->samples,
                    "at least so many views where samples are taken (default 2562)")
+      ->type_name("N")
       ->check(whole_number(1, 100'000'000));
   command
       ->add_option("--sampling", options->sampling,
@@ -123,13 +124,15 @@ Command add_aspects_command(CLI::App& app) {
                    "was not seen")
       ->check(one_of({"regular", "random"}))
       ->capture_default_str();
-  command->add_option("--seed", options->seed, "of random samples")
-      ->check(whole_number(0))
-      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of random samples (default 1)")
+      ->type_name("S")
+      ->check(whole_number(0));
   command
       ->add_option("--bounds", options->bounds,
                    "view space is this box: x0,y0,z0,x1,y1,z1 (perspective)")
+      ->type_name("x0,y0,z0,x1,y1,z1")
       ->delimiter(',')
+      ->allow_extra_args(false)
       ->expected(6)
       ->check(finite_number());
   command->add_option("--of", options->of,
@@ -137,10 +140,12 @@ Command add_aspects_command(CLI::App& app) {
   command
       ->add_option("--check", options->check,
                    "compare so many further random views with the graph")
+      ->type_name("N")
       ->check(whole_number(0, 100'000'000));
   command->add_flag("--list", options->list,
                     "add \"list\": a viewpoint, weight, faces and neighbours of each");
   add_common_options(*command, *options);
+  command->remove_option(command->get_option("--vtk"));  // there are none of these yet
   command->footer(
       "An aspect is a connected region of viewpoints with one view.  Exact graphs are of "
       "one convex\nsolid so far; of other scenes the graph is refined and says so. "
