@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <ostream>
+#include <set>
 #include <sstream>
 #include <tuple>
 
@@ -313,13 +314,23 @@ void MeshStructures::walk(const MeshPlane& plane) {
     const auto here = next - 1;
     if (std::min(t - here->at, next->at - t) * length < kSamePlace * plane.size())
       continue;
-    const auto &e = plane.mesh().edges[here->edge], &g = plane.mesh().edges[next->edge];
-    const int face = here->to_left ? e.left : e.right;
+    // Crossings in one place, in whatever order they came, have slivers between them.
+    std::set<int> behind, ahead, both;
+    for (const auto& c : met) {
+      const ShadowMesh::Edge& e = plane.mesh().edges[c.edge];
+      if (std::abs(c.at - here->at) * length < kSamePlace * plane.size())
+        behind.insert(c.to_left ? e.left : e.right);
+      if (std::abs(c.at - next->at) * length < kSamePlace * plane.size())
+        ahead.insert(c.to_left ? e.right : e.left);
+    }
+    std::ranges::set_intersection(behind, ahead, std::inserter(both, both.end()));
     const Flat x = p + t * (q - p);
-    if (face != (next->to_left ? g.right : g.left)) {
+    if (both.empty()) {
       report(plane, x, "one face becomes another on the way");
       return;
     }
+    if (both.size() > 1) continue;
+    const int face = *both.begin();
     if (face < 0) {
       there = false;
       continue;
