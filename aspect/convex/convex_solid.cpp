@@ -32,43 +32,67 @@ std::optional<ConvexSolid> convex_solid(const Scene& scene) {
     if (e.left < 0 || e.right < 0) return std::nullopt;
     out.edges.push_back(e);
   }
+  out.find_walks();
   return out;
+}
+
+void ConvexSolid::find_walks() {
+  std::vector<std::vector<int>> sides(planes.size());
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    sides[edges[e].left].push_back(2 * static_cast<int>(e));
+    sides[edges[e].right].push_back(2 * static_cast<int>(e) + 1);
+  }
+  const auto end = [&](int d, int which) {
+    return edges[d / 2].corners[which ^ (d % 2)];
+  };
+  for (const std::vector<int>& all : sides) {
+    auto& walk = walks.emplace_back();
+    for (int d = all.front(); walk.size() < all.size();) {
+      walk.push_back(d);
+      const auto next = std::ranges::find_if(
+          all, [&](int other) { return end(other, 0) == end(d, 1); });
+      d = *next;
+    }
+  }
 }
 
 ShapeMap ConvexSolid::map_of(const std::function<bool(int)>& shows) const {
   constexpr auto kind = [](MapEdgeKind k) { return static_cast<std::uint8_t>(k); };
   ShapeMap map;
-  std::map<int, int> vertices;
+  std::vector<int> vertices(corners, -1);
   const auto vertex = [&](int corner) {
-    const auto [it, is_new] =
-        vertices.emplace(corner, static_cast<int>(map.vertex_kinds.size()));
-    if (is_new) {
+    if (vertices[corner] < 0) {
+      vertices[corner] = static_cast<int>(map.vertex_kinds.size());
       map.vertex_kinds.push_back(static_cast<std::uint8_t>(MapVertexKind::Corner));
     }
-    return it->second;
+    return vertices[corner];
   };
-  // Darts by region, each with the vertex that it leaves from.
-  std::map<int, std::map<int, int>> leaving;  // region (-1: background), vertex, dart
-  for (const Edge& e : edges) {
+  std::vector<int> number(edges.size(), -1);
+  std::vector<int> outside;  // darts with the background on their left
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const Edge& e = edges[i];
     const bool left = shows(e.left), right = shows(e.right);
     if (!left && !right) continue;
-    const auto number = static_cast<int>(map.edges.size());
+    number[i] = static_cast<int>(map.edges.size());
     map.edges.push_back(
         {{vertex(e.corners[0]), vertex(e.corners[1])},
-         left && right ? kind(MapEdgeKind::Crease) : kind(MapEdgeKind::Silhouette)});
-    leaving[left ? e.left : -1][map.edges.back().ends[0]] = 2 * number;
-    leaving[right ? e.right : -1][map.edges.back().ends[1]] = 2 * number + 1;
+         kind(left && right ? MapEdgeKind::Crease : MapEdgeKind::Silhouette)});
+    if (left != right) outside.push_back(2 * number[i] + (left ? 1 : 0));
   }
-  for (auto& [region, darts] : leaving) {
-    ShapeMap::Region out{static_cast<std::uint8_t>(region < 0 ? 0 : 1), {}};
-    auto& walk = out.boundary.emplace_back();
-    for (int v = darts.begin()->first;;) {
-      const int d = darts.at(v);
-      walk.push_back(d);
-      v = map.edges[d / 2].ends[d % 2 == 0 ? 1 : 0];
-      if (v == darts.begin()->first) break;
-    }
-    map.regions.push_back(std::move(out));
+  for (std::size_t f = 0; f < walks.size(); ++f) {
+    if (!shows(static_cast<int>(f))) continue;
+    auto& walk =
+        map.regions.emplace_back(ShapeMap::Region{1, {}}).boundary.emplace_back();
+    for (const int d : walks[f]) walk.push_back(2 * number[d / 2] + d % 2);
+  }
+  // What is seen of a convex solid has one outline, each corner of it once.
+  std::vector<int> leaving(map.vertex_kinds.size(), -1);
+  for (const int d : outside) leaving[map.edges[d / 2].ends[d % 2]] = d;
+  auto& walk = map.regions.emplace_back(ShapeMap::Region{0, {}}).boundary.emplace_back();
+  for (int d = outside.front();;) {
+    walk.push_back(d);
+    d = leaving[map.edges[d / 2].ends[1 - d % 2]];
+    if (d == outside.front()) break;
   }
   return map;
 }

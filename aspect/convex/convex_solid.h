@@ -22,7 +22,10 @@ struct ConvexSolid {
   };
   std::vector<Edge> edges;
   int corners = 0;
+  /// By facet its sides, counter-clockwise: 2 e along edge e, 2 e + 1 against it.
+  std::vector<std::vector<int>> walks;
 
+  void find_walks();
   /// The map of the facets that show their fronts: all of each is seen.
   [[nodiscard]] ShapeMap map_of(const std::function<bool(int)>& shows) const;
 };
