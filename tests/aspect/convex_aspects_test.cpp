@@ -157,6 +157,28 @@ TEST(ConvexAspects, EulersFormula) {
   EXPECT_GE(asked, 20);
 }
 
+// Three planes through one line, and two across it: six sectors in three layers.
+TEST(ConvexAspects, PlanesThroughOneLine) {
+  std::vector<internal::LightPlane> planes;
+  for (const std::array<double, 4>& p : {std::array{1., 0., 0., 0.},
+                                         {0., 1., 0., 0.},
+                                         {1., -1., 0., 0.},
+                                         {0., 0., 1., 0.},
+                                         {0., 0., 1., -1.}}) {
+    internal::LightPlane plane;
+    for (int i = 0; i < 4; ++i) {
+      plane.near[i] = {p[i], 0};
+      plane.exact[i] = internal::Ring(p[i]);
+    }
+    planes.push_back(plane);
+  }
+  const internal::SpaceCells space = internal::space_cells(planes, Request{});
+  EXPECT_EQ(space.cells.size(), 18);
+  EXPECT_EQ(space.vertices, 2u);
+  EXPECT_EQ(space.edges, 3u + 2 * 6);
+  EXPECT_EQ(space.walls.size(), 3u * 6 + 2 * 6);
+}
+
 // Weights add up, and each view from a listed point is what is told.
 TEST(ConvexAspects, ListedViews) {
   for (const Scene& scene : {cube(), tetrahedron(), octahedron()}) {
