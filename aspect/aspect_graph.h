@@ -4,10 +4,8 @@
 // (perspective).  An *aspect* is a maximal connected open region of it from which the
 // same is seen: the set of patches, or the labelled structure of the view (point_view.h).
 //
-//   const Scene scene = ...;
-//   const AspectGraph graph = find_aspects(scene, {.projection =
-//   Projection::Orthographic}); std::cout << graph.aspects << " aspects, " <<
-//   graph.adjacencies << " neighbours\n";
+//   const AspectGraph graph = find_aspects(Scene(read_mesh("solid.obj")), {});
+//   std::cout << graph.aspects << ' ' << graph.adjacencies << '\n';
 //
 // Aspects: Koenderink and van Doorn 1979; of polyhedra: Gigus, Canny and Seidel 1991,
 // Plantinga and Dyer 1990.  What is not seen yet: Good 1953; how many labels there are:
@@ -67,7 +65,7 @@ struct AspectEstimate {
   int seen_once, seen_twice;  ///< labels
 };
 
-/// Of further random views.
+/// How many further random views have a label that the graph knows.
 struct AspectCheck {
   int views = 0, not_in_graph = 0;
   std::array<double, 2> interval{};  ///< of the share not in the graph, 95 %
@@ -86,7 +84,8 @@ struct Aspect {
   Viewpoint at;
   /// Steradians, or volume; nullopt where it is not known.
   std::optional<double> weight;
-  /// Of `at` from the nearest wall, radians or scene units.
+  /// The angle (radians) or distance (scene units) from `at` to the nearest wall; nullopt
+  /// where it is not known.
   std::optional<double> clearance;
   std::vector<int> facets;  ///< that are seen, ascending
   std::string structure;    ///< PointView::structure at `at`
@@ -96,11 +95,12 @@ struct Aspect {
 
 struct AspectGraph {
   AspectMethod method = AspectMethod::Exact;  ///< what was done
-  std::string why;                            ///< why it is not what was asked; empty
+  std::string why;  ///< why the method is not the one asked for; else empty
   std::size_t aspects = 0, adjacencies = 0;
   std::size_t distinct = 0;  ///< labels
   std::size_t by_visible_faces = 0, by_shape = 0;
-  /// Of a perspective graph without bounds that is exact.
+  /// How many aspects reach to infinity, and how many do not; of exact perspective graphs
+  /// without bounds, else nullopt.
   std::optional<std::size_t> unbounded, bounded;
   bool certified = false, complete = true;
   std::size_t views = 0;  ///< that were taken
@@ -116,7 +116,8 @@ struct AspectGraph {
 
 /// Throws InvalidInput for bounds without a volume, and for samples below 1; Stopped.
 /// Cost: exact, of one convex solid of n facets, n^2 log n for directions and n^3 log n
-/// for points; sampled, a view (point_view.h) for each sample.
+/// for points; sampled, a view (point_view.h) for each sample; refined, also a path
+/// (view_path.h) for each pair of neighbouring viewpoints with different labels.
 [[nodiscard]] AspectGraph find_aspects(const Scene& scene, const AspectRequest& request);
 
 }  // namespace sightline

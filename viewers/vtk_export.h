@@ -12,7 +12,7 @@
 namespace sightline {
 struct Shadows;
 class ShadowVolumes;
-}
+}  // namespace sightline
 
 namespace sightline::viewers {
 

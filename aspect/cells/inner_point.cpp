@@ -14,28 +14,9 @@ namespace {
 
 using Vec = Eigen::Vector3d;
 
-// Scaled by a power of two to a length about 1.
-Vec direction(const std::array<Ring, 3>& v) {
-  int exponent = std::numeric_limits<int>::min();
-  std::array<std::pair<double, int>, 3> parts;
-  for (int i = 0; i < 3; ++i) {
-    parts[i] = {0, 0};
-    const double x = CGAL::to_double(v[i]);
-    if (x == 0) continue;
-    int e = 0;
-    parts[i] = {std::frexp(x, &e), 0};
-    parts[i].second = e;
-    exponent = std::max(exponent, e);
-  }
-  Vec out;
-  for (int i = 0; i < 3; ++i)
-    out[i] = std::ldexp(parts[i].first, parts[i].second - exponent);
-  return out.normalized();
-}
-
-std::array<Ring, 3> cross(const std::array<Ring, 3>& a, const std::array<Ring, 3>& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-          a[0] * b[1] - a[1] * b[0]};
+Vec direction(const RingVector& v) {
+  const std::array<double, 3> d = scaled<3>({Surd{v[0]}, Surd{v[1]}, Surd{v[2]}}, 0);
+  return Vec(d[0], d[1], d[2]).normalized();
 }
 
 class Disc {
@@ -68,7 +49,7 @@ class Disc {
   }
 
  private:
-  [[nodiscard]] std::array<Ring, 3> exact_vertex(const SphereCells::Vertex& v) const {
+  [[nodiscard]] RingVector exact_vertex(const SphereCells::Vertex& v) const {
     const auto &a = normals_[v.a].exact, &b = normals_[v.b].exact;
     return v.opposite ? cross(b, a) : cross(a, b);
   }
@@ -79,8 +60,8 @@ class Disc {
   [[nodiscard]] bool is_inside(const ExactPoint& at) const {
     return std::ranges::all_of(arcs_, [&](const SphereArc& arc) {
       const auto& n = normals_[arc.wall->circle].exact;
-      Rational value = 0;
-      for (int i = 0; i < 3; ++i) value += rational(n[i]) * at[i];
+      const Rational value =
+          exact_dot({rational(n[0]), rational(n[1]), rational(n[2])}, at);
       return arc.positive ? value > 0 : value < 0;
     });
   }

@@ -27,6 +27,12 @@ class SignTable {
     return (signs(cell)[surface / 64] >> (surface % 64) & 1) != 0;
   }
 
+  static void set(std::vector<Word>& signs, int surface, bool positive) {
+    const Word bit = Word{1} << (surface % 64);
+    Word& word = signs[surface / 64];
+    word = positive ? word | bit : word & ~bit;
+  }
+
   /// The number of that sign vector, which becomes the next one when it is new.
   int number_of(std::span<const Word> signs) {
     if (2 * static_cast<std::size_t>(size()) >= slots_.size()) grow();
@@ -37,11 +43,9 @@ class SignTable {
     }
     return slot;
   }
-  /// The same with the sign of one surface as told.
+  /// Sets the sign of one surface and gives the number of the vector.
   int number_with(std::vector<Word>& signs, int surface, bool positive) {
-    const Word bit = Word{1} << (surface % 64);
-    Word& word = signs[surface / 64];
-    word = positive ? word | bit : word & ~bit;
+    set(signs, surface, positive);
     return number_of(signs);
   }
 

@@ -108,10 +108,7 @@ class Planes {
     };
     if (zero(0) && zero(1) && zero(2)) return;
     std::vector<SignTable::Word> signs(out_.cells.words(), 0);
-    const auto set = [&](int k, bool positive) {
-      const SignTable::Word bit = SignTable::Word{1} << (k % 64);
-      signs[k / 64] = positive ? signs[k / 64] | bit : signs[k / 64] & ~bit;
-    };
+    const auto set = [&](int k, bool positive) { SignTable::set(signs, k, positive); };
     std::vector<int> through{i, j};
     std::vector<Crossing> crossings;
     for (int k = 0; k < static_cast<int>(planes_.size()); ++k) {
@@ -163,9 +160,7 @@ class Planes {
       for (const bool turned : {false, true}) {
         for (const int q : through) {
           if (q == p) continue;
-          const bool positive = across(line, p, q) != turned;
-          const SignTable::Word bit = SignTable::Word{1} << (q % 64);
-          signs[q / 64] = positive ? signs[q / 64] | bit : signs[q / 64] & ~bit;
+          SignTable::set(signs, q, across(line, p, q) != turned);
         }
         const int negative = out_.cells.number_with(signs, p, false);
         const int positive = out_.cells.number_with(signs, p, true);

@@ -2,20 +2,10 @@
 
 #include <set>
 
+#include "linespace/numbers/vectors.h"
+
 namespace sightline::internal {
 namespace {
-
-template <class T>
-T determinant(const std::array<T, 3>& a, const std::array<T, 3>& b,
-              const std::array<T, 3>& c) {
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
-         a[2] * (b[0] * c[1] - b[1] * c[0]);
-}
-
-template <class T>
-T dot(const std::array<T, 3>& a, const std::array<T, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 class Circles {
  public:
@@ -42,8 +32,8 @@ class Circles {
   // counter-clockwise around normal i.
   [[nodiscard]] Sign turn(int i, int j, int k) const {
     const auto &a = normals_[i], &b = normals_[j], &c = normals_[k];
-    return decide(determinant(a.near, b.near, c.near),
-                  [&] { return determinant(a.exact, b.exact, c.exact); });
+    return decide(dot(a.near, cross(b.near, c.near)),
+                  [&] { return dot(a.exact, cross(b.exact, c.exact)); });
   }
   // Of normal i x normal j and normal k x normal l, which are parallel: the same way?
   [[nodiscard]] bool same_way(int i, int j, int k, int l) const {
@@ -99,10 +89,7 @@ class Circles {
     // Beyond the first half-turn begins what lies opposite.  Counter-clockwise past
     // normal x other normal, the other circle's side changes from positive to negative.
     std::vector<SignTable::Word> signs(out_.cells.words(), 0);
-    const auto set = [&](int j, bool positive) {
-      const SignTable::Word bit = SignTable::Word{1} << (j % 64);
-      signs[j / 64] = positive ? signs[j / 64] | bit : signs[j / 64] & ~bit;
-    };
+    const auto set = [&](int j, bool positive) { SignTable::set(signs, j, positive); };
     for (const Crossing& c : all) set(c.circle, !c.opposite);
     std::vector<SphereCells::Vertex> at;
     for (const bool beyond : {false, true}) {

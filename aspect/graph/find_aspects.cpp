@@ -2,7 +2,7 @@
 
 #include "aspect/aspect_graph.h"
 #include "aspect/convex/convex_aspects.h"
-#include "aspect/refined/refined_aspects.h"
+#include "aspect/sampled/refined_aspects.h"
 #include "aspect/sampled/sampled_aspects.h"
 
 namespace sightline {

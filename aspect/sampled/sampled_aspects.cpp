@@ -2,44 +2,18 @@
 
 #include <algorithm>
 
-#include "aspect/graph/label_graph.h"
-#include "aspect/sampled/estimate.h"
-#include "aspect/sampled/labels.h"
-#include "aspect/sampled/sample_space.h"
+#include "aspect/views/estimate.h"
+#include "aspect/views/label_graph.h"
+#include "aspect/views/labels.h"
+#include "aspect/views/sample_space.h"
 #include "linespace/picture/view_scene.h"
 #include "linespace/work/deadline.h"
-#include "linespace/work/parallel.h"
 
 namespace sightline::internal {
 namespace {
 
 // Of the seeds for what is sampled and what is checked.
 constexpr std::uint64_t kOtherSeed = 0x9E3779B97F4A7C15u;
-
-// By viewpoint; nothing where the view belongs to no aspect, or time was over first.
-struct Taken {
-  std::vector<std::optional<ViewLabels>> labels;
-  std::size_t views = 0;
-  bool complete = true;
-};
-
-Taken take(const PointViewIndex& index, const std::vector<Point>& at,
-           const AspectRequest& request, const Request& left) {
-  Taken out;
-  out.labels.resize(at.size());
-  std::vector<std::uint8_t> done(at.size(), 0);
-  try {
-    Stage stage(left, "views");
-    for_each_of(0, at.size(), at.size(), left, stage, [&](std::size_t i) {
-      out.labels[i] = labels_of(index, viewpoint_at(at[i], request.projection), request);
-      done[i] = 1;
-    });
-  } catch (const Stopped&) {
-    out.complete = false;
-  }
-  out.views = static_cast<std::size_t>(std::ranges::count(done, 1));
-  return out;
-}
 
 }  // namespace
 
@@ -48,7 +22,7 @@ AspectCheck check_labels(const PointViewIndex& index, const AspectRequest& reque
   const std::vector<Point> at = random_samples(index.shared().scene(), request,
                                                request.check, request.seed ^ kOtherSeed);
   AspectCheck out;
-  for (const auto& fresh : take(index, at, request, request).labels) {
+  for (const auto& fresh : take_views(index, at, request, request).labels) {
     if (!fresh) continue;
     ++out.views;
     if (!labels.contains(fresh->label)) ++out.not_in_graph;
@@ -61,7 +35,8 @@ AspectGraph sampled_aspects(const Scene& scene, const AspectRequest& request) {
   const Deadline deadline(request);
   const PointViewIndex index(scene, request);
   const Samples samples = samples_of(scene, request);
-  Taken taken = take(index, samples.at, request, deadline.what_is_left(request));
+  TakenViews taken =
+      take_views(index, samples.at, request, deadline.what_is_left(request));
   auto& labels = taken.labels;
   LabelGraph graph(request, view_weight(scene, request));
   std::vector<int> node(labels.size(), -1);

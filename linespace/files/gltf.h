@@ -20,7 +20,7 @@ struct CheckedGltf {
   std::string_view binary;
   /// The "byteLength" of each buffer that is a file of its own, in order.
   std::vector<std::size_t> file_sizes;
-  /// Of each material: whether it emits light, an emissiveFactor above 0.
+  /// By material: whether it emits light, which an emissiveFactor above 0 says.
   std::vector<bool> emits;
 };
 

@@ -136,6 +136,7 @@ std::array<double, N> scaled(const std::array<Surd, N>& values, const Ring& d) {
   }
   return out;
 }
+template std::array<double, 3> scaled(const std::array<Surd, 3>&, const Ring&);
 template std::array<double, 6> scaled(const std::array<Surd, 6>&, const Ring&);
 template std::array<double, 12> scaled(const std::array<Surd, 12>&, const Ring&);
 

@@ -245,9 +245,7 @@ bool EeeCurve::may_vanish(const BoundedForm& form) const {
   return std::max({std::abs(h.h0), std::abs(h.h1), std::abs(h.h2)}) <= h.error;
 }
 
-namespace {
-
-}  // namespace
+namespace {}  // namespace
 
 std::optional<Rational> EeeCurve::rational_parameter(const CurveCut& cut) const {
   const QuadraticRoot root = exact(cut);

@@ -29,6 +29,8 @@ void SeparatingPlanes::add(const Eigen::Vector3d& normal,
     low = std::min(low, h);
     high = std::max(high, h);
   }
+  // Far above rounding: a plane that is kept though it passes a little beside an end only
+  // moves outwards to the largest value.
   constexpr double kOneSided = 1e-9;
   const double width = high - low;
   if (!(width > 0)) return;

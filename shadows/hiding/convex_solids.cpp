@@ -7,6 +7,15 @@
 #include "shadows/factors/factor_sides.h"
 
 namespace sightline::internal {
+namespace {
+
+// Of the scene's coordinates: a thousand times what rounding does to a plane's values, so
+// that a solid that is said to be met is met.
+constexpr double kMargin = 1e-12;
+// Of a segment: a shorter part in a solid may be rounding.
+constexpr double kLeastPart = 1e-12;
+
+}  // namespace
 
 ConvexSolids::ConvexSolids(const Scene& scene) : tree_({}) {
   first_.push_back(0);
@@ -27,7 +36,7 @@ ConvexSolids::ConvexSolids(const Scene& scene) : tree_({}) {
   }
   tree_ = Bvh(boxes_, 1);
   const auto& [low, high] = scene.bounds();
-  margin_ = 1e-12 * (low.cwiseAbs().cwiseMax(high.cwiseAbs())).maxCoeff();
+  margin_ = kMargin * (low.cwiseAbs().cwiseMax(high.cwiseAbs())).maxCoeff();
 }
 
 bool ConvexSolids::meets(int solid, const Point& x, const Point& y) const {
@@ -41,7 +50,7 @@ bool ConvexSolids::meets(int solid, const Point& x, const Point& y) const {
     if (hy > 0) to = std::min(to, hx / (hx - hy));
     if (from >= to) return false;
   }
-  return to - from > 1e-12;
+  return to - from > kLeastPart;
 }
 
 // A convex set that meets every segment between corners of two convex sets meets all

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "linespace/space/cut_polyhedron.h"
 #include "shadows/shadow_volume.h"
 #include "shadows/volumes/convex_body.h"
-#include "shadows/volumes/cut_polyhedron.h"
 
 namespace sightline::internal {
 

@@ -1,4 +1,4 @@
-#include "aspect/sampled/estimate.h"
+#include "aspect/views/estimate.h"
 
 #include <gtest/gtest.h>
 

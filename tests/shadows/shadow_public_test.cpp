@@ -211,15 +211,19 @@ TEST(ShadowPublic, PointToSurfaces) {
   EXPECT_NEAR(sum, 1, 1e-15);
 }
 
-// A picture with soft shadows, without a display: a row of pixels of the floor below a
-// plate of half-side 3/2 half way up to the lamp, from umbra through penumbra to light.
-TEST(ShadowPublic, SoftShadows) {
+PolygonSoup plate_below_a_lamp() {
   PolygonSoup soup;
   add_lamp(soup, 1, 4);
   add_sheet(soup, "plate",
             {{-1.5, -1.5, 2}, {1.5, -1.5, 2}, {1.5, 1.5, 2}, {-1.5, 1.5, 2}});
   add_sheet(soup, "ground", {{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}});
-  const Lit lit(soup);
+  return soup;
+}
+
+// A picture with soft shadows, without a display: a row of pixels of the floor below a
+// plate of half-side 3/2 half way up to the lamp, from umbra through penumbra to light.
+TEST(ShadowPublic, SoftShadows) {
+  const Lit lit(plate_below_a_lamp());
   const OcclusionIndex occlusion(lit.scene);
   const double half_angle = 75 * std::numbers::pi / 180;
   const PictureCamera camera{{0, 0, 1.75}, {0, 0, 0}, {0, 1, 0}, 2 * half_angle, 101, 3};
@@ -247,12 +251,7 @@ TEST(ShadowPublic, SoftShadows) {
 // The same scene with values between exact ones: which pixels are interpolated, and how
 // far off.
 TEST(ShadowPublic, SmoothPicturesAreNearExactOnes) {
-  PolygonSoup soup;
-  add_lamp(soup, 1, 4);
-  add_sheet(soup, "plate",
-            {{-1.5, -1.5, 2}, {1.5, -1.5, 2}, {1.5, 1.5, 2}, {-1.5, 1.5, 2}});
-  add_sheet(soup, "ground", {{-8, -8, 0}, {8, -8, 0}, {8, 8, 0}, {-8, 8, 0}});
-  const Lit lit(soup);
+  const Lit lit(plate_below_a_lamp());
   const OcclusionIndex occlusion(lit.scene);
   const PictureCamera camera{{-9, -7, 6}, {0, 0, 1}, {0, 0, 1}, 1, 102, 75};
   const auto exact = lit_picture(occlusion, lit.index, lit.source, camera, 0, 1);

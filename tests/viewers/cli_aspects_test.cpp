@@ -103,7 +103,7 @@ TEST_F(CliAspects, BudgetLeavesAPartialGraph) {
   EXPECT_EQ(run(kRoom + " --projection orthographic --method sampled --samples 100000" +
                 " --budget 3 --json " + file("b.json")),
             3);
-  EXPECT_EQ(json::parse(contents(file("b.json"))).at("complete"), false);
+  EXPECT_EQ(json::parse(file_contents(file("b.json"))).at("complete"), false);
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
 }
 

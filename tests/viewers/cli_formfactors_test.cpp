@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using sightline::test::contents;
+using sightline::test::file_contents;
 
 const std::string kRoom = std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj";
 
@@ -72,9 +72,9 @@ TEST_F(CliFormFactors, EachFaceHasItsNumberInTheFile) {
 TEST_F(CliFormFactors, TableAndSparseMatrix) {
   ASSERT_EQ(run(squares() + " --csv " + file("f.csv") + " --npz " + file("f.npz")), 0)
       << err();
-  const std::string csv = contents(file("f.csv"));
+  const std::string csv = file_contents(file("f.csv"));
   EXPECT_TRUE(csv.starts_with("from,to,factor\nfloor,ceiling,0.0995062945989")) << csv;
-  const std::string npz = contents(file("f.npz"));
+  const std::string npz = file_contents(file("f.npz"));
   EXPECT_TRUE(npz.starts_with("PK\x03\x04"));
   for (const char* name :
        {"data.npy", "indices.npy", "indptr.npy", "shape.npy", "format.npy", "areas.npy",
@@ -94,7 +94,7 @@ TEST_F(CliFormFactors, FromPoints) {
   EXPECT_NEAR(p.at("factors")[1], 0.239456470461, 1e-12);
   EXPECT_NEAR(p.at("outside"), 1 - 0.239456470461, 1e-12);
   EXPECT_EQ(p.at("others"), 0);
-  EXPECT_TRUE(contents(file("p.csv"))
+  EXPECT_TRUE(file_contents(file("p.csv"))
                   .starts_with("point,floor,ceiling,others,outside,backs\n0,"));
 }
 
@@ -107,7 +107,7 @@ TEST_F(CliFormFactors, Enforced) {
 TEST_F(CliFormFactors, ABudgetThatEnds) {
   EXPECT_EQ(run(kRoom + " --each face --budget 0.05 --json " + file("a.json")), 3);
   if (fs::exists(file("a.json"))) {
-    const json j = json::parse(contents(file("a.json")));
+    const json j = json::parse(file_contents(file("a.json")));
     EXPECT_EQ(j.at("complete"), false);
     EXPECT_TRUE(j.at("matrix").back().is_null());
   }
@@ -128,8 +128,8 @@ TEST_F(CliFormFactors, ByLines) {
   EXPECT_EQ(j.at("sky")[1], 0);
   EXPECT_GT(j.at("standard_errors").at("sky")[0], 0);
   EXPECT_TRUE(
-      contents(file("l.csv")).starts_with("from,to,factor,standard_error\nfloor,"));
-  EXPECT_NE(contents(file("l.npz")).find("standard_errors.npy"), std::string::npos);
+      file_contents(file("l.csv")).starts_with("from,to,factor,standard_error\nfloor,"));
+  EXPECT_NE(file_contents(file("l.npz")).find("standard_errors.npy"), std::string::npos);
   ASSERT_EQ(run(squares() + " --lines 1000"), 0) << err();
   EXPECT_NE(out().find("estimated by 1000 lines"), std::string::npos) << out();
 }

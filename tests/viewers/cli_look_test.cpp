@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using sightline::test::contents;
+using sightline::test::file_contents;
 
 const std::string kRoom = std::string(SIGHTLINE_EXAMPLES) + "/scenes/room.obj";
 const std::string kCube = std::string(SIGHTLINE_TEST_DATA) + "/formats/cube.obj";
@@ -178,8 +178,8 @@ TEST_F(CliLook, FilesHoldWhatIsSeen) {
                 file("vtk") + " --list --json " + file("v.json")),
             0)
       << err();
-  const json v = json::parse(contents(file("v.json"))).at("views").at(0);
-  const std::string svg = contents(file("v.svg"));
+  const json v = json::parse(file_contents(file("v.json"))).at("views").at(0);
+  const std::string svg = file_contents(file("v.svg"));
   EXPECT_TRUE(is_well_formed(svg));
   const std::size_t lines = occurrences(svg, "<line ");
   EXPECT_GT(lines, 20U);
@@ -188,8 +188,8 @@ TEST_F(CliLook, FilesHoldWhatIsSeen) {
     EXPECT_LE(occurrences(svg, " data-edge=\"" + std::to_string(e) + "\""), 1U);
   }
   EXPECT_GT(occurrences(svg, "data-object=\"table_top\""), 0U);
-  EXPECT_EQ(occurrences(contents(file("v.csv")), "\n"), 1 + v.at("facets").size());
-  EXPECT_EQ(contents(file("v.png")).substr(1, 3), "PNG");
+  EXPECT_EQ(occurrences(file_contents(file("v.csv")), "\n"), 1 + v.at("facets").size());
+  EXPECT_EQ(file_contents(file("v.png")).substr(1, 3), "PNG");
   for (const char* name : {"scene.vtp", "view0_regions.vtp", "view0_edges.vtp",
                            "view0_picture_regions.vtp", "sightline.vtm"}) {
     EXPECT_TRUE(fs::exists(file("vtk") + "/" + name)) << name;
@@ -200,11 +200,11 @@ TEST_F(CliLook, FilesHoldWhatIsSeen) {
 TEST_F(CliLook, DrawsWhatIsHiddenOnRequest) {
   const std::string drawing = (folder_ / "cube.svg").string();
   ASSERT_EQ(run(kCube + " --direction 1,2,3 --svg " + drawing), 0) << err();
-  EXPECT_EQ(occurrences(contents(drawing), "<line class=\"hidden\""), 0U);
+  EXPECT_EQ(occurrences(file_contents(drawing), "<line class=\"hidden\""), 0U);
   ASSERT_EQ(run(kCube + " --direction 1,2,3 --hidden --seams --svg " + drawing), 0)
       << err();
-  EXPECT_TRUE(is_well_formed(contents(drawing)));
-  EXPECT_EQ(occurrences(contents(drawing), "<line class=\"hidden\""), 3U);
+  EXPECT_TRUE(is_well_formed(file_contents(drawing)));
+  EXPECT_EQ(occurrences(file_contents(drawing), "<line class=\"hidden\""), 3U);
 }
 
 TEST_F(CliLook, TheWindowHoldsAllThatIsSeenFromOutside) {
@@ -213,8 +213,8 @@ TEST_F(CliLook, TheWindowHoldsAllThatIsSeenFromOutside) {
                   file("v.json")),
               0)
         << err();
-    const json v = json::parse(contents(file("v.json"))).at("views").at(0);
-    const std::string svg = contents(file("v.svg"));
+    const json v = json::parse(file_contents(file("v.json"))).at("views").at(0);
+    const std::string svg = file_contents(file("v.svg"));
     for (std::size_t e = 0; e < v.at("map").at("edges").size(); ++e) {
       EXPECT_EQ(occurrences(svg, " data-edge=\"" + std::to_string(e) + "\""), 1U) << view;
     }
@@ -247,7 +247,7 @@ TEST_F(CliLook, WhatTheBudgetLeavesIsNull) {
                 " --json " + file("v.json")),
             3);
   EXPECT_EQ(occurrences(err(), "\n"), 1U);
-  const json j = json::parse(contents(file("v.json")));
+  const json j = json::parse(file_contents(file("v.json")));
   EXPECT_EQ(j.at("complete"), false);
   const json& v = j.at("views");
   ASSERT_EQ(v.size(), 4000U);
@@ -255,7 +255,7 @@ TEST_F(CliLook, WhatTheBudgetLeavesIsNull) {
   EXPECT_TRUE(v[3999].is_null());
   std::size_t rows = 1;
   for (const json& view : v) rows += view.is_null() ? 0 : view.at("facets").size();
-  EXPECT_EQ(occurrences(contents(file("v.csv")), "\n"), rows);
+  EXPECT_EQ(occurrences(file_contents(file("v.csv")), "\n"), rows);
 }
 
 TEST_F(CliLook, RefusesWhatItCannotAnswerInOneLine) {
@@ -322,10 +322,10 @@ TEST_F(CliLook, InABoxItTellsTheBoxAndWhereItCuts) {
     EXPECT_TRUE(e.at("edge").at("facet").is_number());
   }
   EXPECT_EQ(cuts, 6);
-  EXPECT_EQ(occurrences(contents(file("cut.svg")), "<line class=\"cut\""), 6U);
+  EXPECT_EQ(occurrences(file_contents(file("cut.svg")), "<line class=\"cut\""), 6U);
   const json whole = answer(box + " --direction 1,-2,2 --svg " + file("whole.svg"));
   EXPECT_FALSE(whole.contains("box"));
-  EXPECT_EQ(contents(file("whole.svg")).find(".cut"), std::string::npos);
+  EXPECT_EQ(file_contents(file("whole.svg")).find(".cut"), std::string::npos);
 }
 
 TEST_F(CliLook, RefusesBoxesInOneLine) {

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using sightline::test::contents;
+using sightline::test::file_contents;
 
 const std::string kScenes = std::string(SIGHTLINE_TEST_DATA) + "/shadows/";
 // A lamp of half-side 1 at height 4, a plate of half-side 3/2 at 2 (polygon 2), a ground
@@ -339,13 +339,13 @@ TEST_F(CliShadows, PicturesNeedNoDisplay) {
   ASSERT_EQ(run(kPlate + camera + " --rays 4 --png " + file("c.png")), 0) << err();
   ASSERT_EQ(run(kPlate + camera + " --rays 4 --seed 2 --png " + file("d.png")), 0);
   ASSERT_EQ(run(kPlate + camera + " --rays 4 --seed 2 --png " + file("e.png")), 0);
-  const std::string exact = contents(file("a.png"));
+  const std::string exact = file_contents(file("a.png"));
   EXPECT_EQ(exact.substr(1, 3), "PNG");
   EXPECT_EQ(exact.substr(16, 8), std::string("\0\0\0\x40\0\0\0\x30", 8)) << "its size";
-  EXPECT_NE(exact, contents(file("b.png")));
-  EXPECT_NE(exact, contents(file("c.png")));
-  EXPECT_NE(contents(file("c.png")), contents(file("d.png")));
-  EXPECT_EQ(contents(file("d.png")), contents(file("e.png")));
+  EXPECT_NE(exact, file_contents(file("b.png")));
+  EXPECT_NE(exact, file_contents(file("c.png")));
+  EXPECT_NE(file_contents(file("c.png")), file_contents(file("d.png")));
+  EXPECT_EQ(file_contents(file("d.png")), file_contents(file("e.png")));
   ASSERT_EQ(run(kPlate + camera + " --png -"), 0);
   EXPECT_EQ(out(), exact) << "and nothing else goes there";
 }
@@ -358,14 +358,15 @@ TEST_F(CliShadows, WhatTheBudgetLeavesIsNull) {
     points << 3 + 0.000005 * i << ',' << 0.3 << ',' << 2 + 0.000002 * i << ",0,1,0\n";
   const std::string many = file("many.txt", points.str());
   // On a busy machine nothing may be done yet; then nothing is written.
-  for (int budget = 4; budget <= 64 && contents(file("v.json")).empty(); budget *= 2) {
+  for (int budget = 4; budget <= 64 && file_contents(file("v.json")).empty();
+       budget *= 2) {
     EXPECT_EQ(run(kRoom + " --light lamp_shade --at " + many + " --budget " +
                   std::to_string(budget) + " --csv " + file("v.csv") + " --json " +
                   file("v.json")),
               3);
     EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
   }
-  const json j = json::parse(contents(file("v.json")));
+  const json j = json::parse(file_contents(file("v.json")));
   EXPECT_EQ(j.at("complete"), false);
   const json& p = j.at("points");
   ASSERT_EQ(p.size(), 400000U);
@@ -373,7 +374,7 @@ TEST_F(CliShadows, WhatTheBudgetLeavesIsNull) {
   EXPECT_TRUE(p[399999].is_null());
   const auto done =
       std::ranges::count_if(p, [](const json& one) { return !one.is_null(); });
-  EXPECT_EQ(std::ranges::count(contents(file("v.csv")), '\n'), 1 + done);
+  EXPECT_EQ(std::ranges::count(file_contents(file("v.csv")), '\n'), 1 + done);
 }
 
 // A point is done at once; the events of the lamp on all of the room take seconds.
@@ -382,7 +383,7 @@ TEST_F(CliShadows, WhatTheBudgetLeavesOfReceiversIsMissing) {
                 " --receivers floor,table_top --budget 0.5 --json " + file("v.json")),
             3);
   EXPECT_EQ(std::ranges::count(err(), '\n'), 1) << err();
-  const json j = json::parse(contents(file("v.json")));
+  const json j = json::parse(file_contents(file("v.json")));
   EXPECT_EQ(j.at("complete"), false);
   EXPECT_TRUE(j.at("points").at(0).is_object());
   EXPECT_EQ(j.at("receivers").size() + j.at("missing").size(), 2U);

@@ -149,7 +149,8 @@ ReceivingScene without_small_blockers(Session& session, const ShadowOptions& opt
   for (const SmallPart& part : left_out.parts) {
     for (const int f : part.faces) is_out[f] = 1;
   }
-  std::vector<Receiver> receivers = receivers_of(scene, light, options.receivers, options.both_sides);
+  std::vector<Receiver> receivers =
+      receivers_of(scene, light, options.receivers, options.both_sides);
   for (Receiver& receiver : receivers)
     std::erase_if(receiver.faces, [&](int f) { return is_out[f] != 0; });
   Request request = request_of(session, options);

@@ -1,18 +1,14 @@
-#include "aspect/graph/label_graph.h"
+#include "aspect/views/label_graph.h"
 
 #include <algorithm>
 #include <limits>
 #include <unordered_map>
 #include <unordered_set>
 
-#include "aspect/sampled/sample_space.h"
+#include "aspect/views/sample_space.h"
 #include "linespace/picture/classes.h"
 
 namespace sightline::internal {
-
-Viewpoint viewpoint_at(const Point& at, Projection projection) {
-  return projection == Projection::Orthographic ? eye_far_along(at) : eye_at(at);
-}
 
 int LabelGraph::add(Viewpoint at, ViewLabels labels) {
   nodes_.push_back({std::move(at), std::move(labels)});

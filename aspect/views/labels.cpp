@@ -1,4 +1,4 @@
-#include "aspect/sampled/labels.h"
+#include "aspect/views/labels.h"
 
 #include <algorithm>
 #include <set>
@@ -6,6 +6,7 @@
 #include "aspect/shape/map_shape.h"
 #include "linespace/checksum.h"
 #include "linespace/picture/view_scene.h"
+#include "linespace/work/parallel.h"
 
 namespace sightline::internal {
 namespace {
@@ -114,6 +115,28 @@ std::optional<ViewLabels> labels_of(const PointViewIndex& index, const Viewpoint
   const PointView view = index.view(at);
   if (view.place != EyePlace::Free || !view.general) return std::nullopt;
   return labels_of(view, index.shared().scene(), request);
+}
+
+Viewpoint viewpoint_at(const Point& at, Projection projection) {
+  return projection == Projection::Orthographic ? eye_far_along(at) : eye_at(at);
+}
+
+TakenViews take_views(const PointViewIndex& index, const std::vector<Point>& at,
+                      const AspectRequest& request, const Request& left) {
+  TakenViews out;
+  out.labels.resize(at.size());
+  std::vector<std::uint8_t> done(at.size(), 0);
+  try {
+    Stage stage(left, "views");
+    for_each_of(0, at.size(), at.size(), left, stage, [&](std::size_t i) {
+      out.labels[i] = labels_of(index, viewpoint_at(at[i], request.projection), request);
+      done[i] = 1;
+    });
+  } catch (const Stopped&) {
+    out.complete = false;
+  }
+  out.views = static_cast<std::size_t>(std::ranges::count(done, 1));
+  return out;
 }
 
 }  // namespace sightline::internal

@@ -19,7 +19,7 @@ struct ViewLabels {
   std::vector<int> facets;
 };
 
-/// Of a view that is general.
+/// The labels of a view, which must be general.
 [[nodiscard]] ViewLabels labels_of(const PointView& view, const Scene& scene,
                                    const AspectRequest& request);
 /// nullopt for a viewpoint on an event, on the scene, or inside a closed object: it
@@ -27,5 +27,21 @@ struct ViewLabels {
 [[nodiscard]] std::optional<ViewLabels> labels_of(const PointViewIndex& index,
                                                   const Viewpoint& at,
                                                   const AspectRequest& request);
+
+/// As a direction or an eye, whichever the projection asks for.
+[[nodiscard]] Viewpoint viewpoint_at(const Point& at, Projection projection);
+
+struct TakenViews {
+  /// By viewpoint; nullopt where the view belongs to no aspect, or time was over first.
+  std::vector<std::optional<ViewLabels>> labels;
+  std::size_t views = 0;  ///< that were taken
+  bool complete = true;
+};
+
+/// The labels of the views from all these points, on several threads.  `left`: its budget
+/// and stop are heard.
+[[nodiscard]] TakenViews take_views(const PointViewIndex& index,
+                                    const std::vector<Point>& at,
+                                    const AspectRequest& request, const Request& left);
 
 }  // namespace sightline::internal

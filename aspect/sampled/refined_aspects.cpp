@@ -1,13 +1,13 @@
-#include "aspect/refined/refined_aspects.h"
+#include "aspect/sampled/refined_aspects.h"
 
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "aspect/graph/label_graph.h"
-#include "aspect/sampled/labels.h"
-#include "aspect/sampled/sample_space.h"
 #include "aspect/sampled/sampled_aspects.h"
+#include "aspect/views/label_graph.h"
+#include "aspect/views/labels.h"
+#include "aspect/views/sample_space.h"
 #include "linespace/picture/view_scene.h"
 #include "linespace/view_path.h"
 #include "linespace/work/deadline.h"
@@ -53,19 +53,21 @@ class Refiner {
   }
 
  private:
+  // Throws Stopped, after what is done has joined the graph.
   void take_samples() {
     const std::vector<Point> at = samples_of(*scene_, *request_).at;
-    std::vector<std::optional<ViewLabels>> labels(at.size());
-    const Request left = deadline_.what_is_left(*request_);
-    Stage stage(left, "views");
-    for_each_of(0, at.size(), at.size(), left, stage, [&](std::size_t i) {
-      labels[i] = labels_of(index_, viewpoint_at(at[i], request_->projection), *request_);
-    });
-    views_ = at.size();
+    TakenViews taken =
+        take_views(index_, at, *request_, deadline_.what_is_left(*request_));
+    views_ = taken.views;
     for (std::size_t i = 0; i < at.size(); ++i) {
-      if (labels[i])
-        graph_.add(viewpoint_at(at[i], request_->projection), std::move(*labels[i]));
+      if (taken.labels[i]) {
+        graph_.add(viewpoint_at(at[i], request_->projection),
+                   std::move(*taken.labels[i]));
+      }
     }
+    if (!taken.complete)
+      throw Stopped("views",
+                    static_cast<double>(views_) / static_cast<double>(at.size()));
   }
 
   // What a viewpoint sees between two changes of its label; nothing inside an object.

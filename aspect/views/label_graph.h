@@ -8,12 +8,9 @@
 #include <vector>
 
 #include "aspect/aspect_graph.h"
-#include "aspect/sampled/labels.h"
+#include "aspect/views/labels.h"
 
 namespace sightline::internal {
-
-/// As a direction or an eye.
-[[nodiscard]] Viewpoint viewpoint_at(const Point& at, Projection projection);
 
 class LabelGraph {
  public:
@@ -33,13 +30,14 @@ class LabelGraph {
   /// These events happen between two nodes.
   void add_wall(int a, int b, const std::vector<PathEvent>& events);
 
-  /// Of a Delaunay triangulation of all nodes.
+  /// Pairs of nodes that a Delaunay triangulation of all of them joins.
   [[nodiscard]] std::vector<std::array<int, 2>> neighbours(Projection projection) const;
   /// Neighbours of one label lie in one aspect; others, where no walls were told, count
   /// as beside each other.
   void join(std::vector<std::array<int, 2>> neighbours);
   [[nodiscard]] std::size_t aspects() const { return members_.size(); }
-  /// Of any two aspects of one label, two nodes near to each other.  After join().
+  /// For every two aspects with one label the two nodes of them that are nearest to each
+  /// other.  After join().
   [[nodiscard]] std::vector<std::array<int, 2>> nearest_of_one_label() const;
   /// How often each label is met.
   [[nodiscard]] std::vector<int> labels_met() const;

@@ -1,4 +1,4 @@
-#include "aspect/sampled/estimate.h"
+#include "aspect/views/estimate.h"
 
 #include <algorithm>
 #include <boost/math/distributions/beta.hpp>

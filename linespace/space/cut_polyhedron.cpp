@@ -1,4 +1,4 @@
-#include "shadows/volumes/cut_polyhedron.h"
+#include "linespace/space/cut_polyhedron.h"
 
 #include <algorithm>
 #include <map>
