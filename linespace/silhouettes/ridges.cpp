@@ -6,120 +6,13 @@
 
 #include "linespace/sight/free_segment.h"
 #include "linespace/silhouettes/drawn.h"
+#include "linespace/silhouettes/edge_touches.h"
 #include "linespace/silhouettes/silhouettes.h"
 #include "linespace/work/parallel.h"
 #include "linespace/work/stop_scope.h"
 
 namespace sightline::internal {
 namespace {
-
-// How a face of another object, or of the same one elsewhere, meets the open edge.
-// Pierced: in one point inside the face's facet, which it lies across.
-enum class EdgeTouch : std::uint8_t { None, Pierced, Touches, ContainsInside };
-
-// Where face f, which is not one of the edge's own, meets the open segment e0 e1.
-EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Point& e0,
-                   const Point& e1) {
-  const Sign s0 = plane(e0);
-  const Sign s1 = plane(e1);
-  const auto corners = scene.face_points(f);
-  const std::size_t n = corners.size();
-  // 1. The edge is not in the face's plane.  An end in that plane is no inner point: such
-  // an edge meets nothing here.
-  if (s0 != Sign::Zero || s1 != Sign::Zero) {
-    if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) return EdgeTouch::None;
-    // Crosses the plane inside: within the closed polygon unless it passes some side on
-    // the outside.
-    bool at_edge = false;
-    for (std::size_t k = 0; k < n; ++k) {
-      const Sign s =
-          orient3d(scene.point(corners[k]), scene.point(corners[(k + 1) % n]), e0, e1);
-      // The edge meets a side of the face: that counts unless the side is flat.
-      if (s == Sign::Zero) {
-        at_edge |= scene.edge_of_side(f, static_cast<int>(k)) >= 0;
-        continue;
-      }
-      // Seen from the front a line going to the back passes inside on the left.
-      const Sign inside = s0 == Sign::Positive ? Sign::Negative : Sign::Positive;
-      if (s != inside) return EdgeTouch::None;
-    }
-    return at_edge ? EdgeTouch::Touches : EdgeTouch::Pierced;
-  }
-  // 2. Coplanar: clip combinatorially.  Outside some side as a whole: no touch.
-  const InPlaneSide left_of(scene, f);
-  // How many sides each end is outside of: none for an end within the face.
-  bool along_side = false;
-  int outside_ends[2] = {0, 0};
-  for (std::size_t k = 0; k < n; ++k) {
-    const Point& p = scene.point(corners[k]);
-    const Point& q = scene.point(corners[(k + 1) % n]);
-    const Sign a = left_of(p, q, e0);
-    const Sign b = left_of(p, q, e1);
-    if (a == Sign::Zero && b == Sign::Zero) {
-      along_side = true;
-      continue;
-    }
-    if (a != Sign::Positive && b != Sign::Positive) return EdgeTouch::None;
-    outside_ends[0] += a == Sign::Negative;
-    outside_ends[1] += b == Sign::Negative;
-  }
-  // A segment that crosses two sides' lines outside the polygon is found out by the
-  // polygon's corners all lying on one side of it.
-  bool left = false, right = false;
-  for (const int c : corners) {
-    const Sign s = left_of(e0, e1, scene.point(c));
-    left |= s == Sign::Positive;
-    right |= s == Sign::Negative;
-  }
-  if (along_side) return EdgeTouch::Touches;
-  if (!left || !right) {
-    // At most a corner of the polygon lies on the open segment.
-    return EdgeTouch::Touches;
-  }
-  // 3. Both ends within the face: all of the edge is inside of it.
-  return outside_ends[0] == 0 && outside_ends[1] == 0 ? EdgeTouch::ContainsInside
-                                                      : EdgeTouch::Touches;
-}
-
-// The stretch of the edge e0 e1, as parameters, that lies in a coplanar face's closed
-// polygon; nullopt when it is a point at most, or runs along a side that is not flat.
-std::optional<std::array<Rational, 2>> stretch_inside(const Scene& scene, int f,
-                                                      const Point& e0, const Point& e1) {
-  const InPlaneSide left_of(scene, f);
-  const auto corners = scene.face_points(f);
-  const int n = static_cast<int>(corners.size());
-  Rational low = 0;
-  Rational high = 1;
-  for (int k = 0; k < n; ++k) {
-    const Point& p = scene.point(corners[k]);
-    const Point& q = scene.point(corners[(k + 1) % n]);
-    const Sign a = left_of(p, q, e0);
-    const Sign b = left_of(p, q, e1);
-    if (a == Sign::Zero && b == Sign::Zero && scene.edge_of_side(f, k) >= 0) {
-      return std::nullopt;
-    }
-    if (a != Sign::Negative && b != Sign::Negative) continue;
-    if (a != Sign::Positive && b != Sign::Positive) return std::nullopt;
-    const Rational x = left_of.value(p, q, e0);
-    const Rational y = left_of.value(p, q, e1);
-    const Rational s = x / (x - y);
-    if (a == Sign::Negative) low = std::max(low, s);
-    if (b == Sign::Negative) high = std::min(high, s);
-  }
-  if (low >= high) return std::nullopt;
-  return std::array<Rational, 2>{low, high};
-}
-
-// The stretches cover the whole edge.
-bool cover_edge(std::vector<std::array<Rational, 2>> stretches) {
-  std::sort(stretches.begin(), stretches.end());
-  Rational reached = 0;
-  for (const auto& [from, to] : stretches) {
-    if (from > reached) return false;
-    reached = std::max(reached, to);
-  }
-  return reached >= 1;
-}
 
 // Of all faces at the edge and at those that coincide with it, which are its neighbours
 // in the scene's order; ridges or not.
@@ -158,19 +51,33 @@ struct Silhouettes::EdgeFaces {
 void Silhouettes::find_ridges(const Request& request, Stage& stage) {
   const auto edges = scene_->edges();
   ridge_of_edge_.assign(edges.size(), -1);
+  // Edges between the same points follow each other; where each such group begins.
+  std::vector<int> groups;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i == 0 || edges[i].points != edges[i - 1].points) {
+      groups.push_back(static_cast<int>(i));
+    }
+  }
+  groups.push_back(static_cast<int>(edges.size()));
   std::vector<Box> boxes;
-  // Edges are looked at in parallel, some at a time; ridges are added in their order.
+  // Groups are looked at in parallel, some at a time; ridges are added in their order.
   constexpr std::size_t kAtOnce = 1 << 16;
+  const std::size_t count = groups.size() - 1;
   std::vector<EdgeFaces> looked_at;
-  for (std::size_t first = 0; first < edges.size(); first += kAtOnce) {
-    const std::size_t last = std::min(first + kAtOnce, edges.size());
-    looked_at.assign(last - first, {});
-    for_each_of(first, last, edges.size(), request, stage, [&](std::size_t i) {
-      looked_at[i - first] = look_at_edge(static_cast<int>(i));
+  for (std::size_t first = 0; first < count; first += kAtOnce) {
+    const std::size_t last = std::min(first + kAtOnce, count);
+    const int first_edge = groups[first];
+    looked_at.assign(groups[last] - first_edge, {});
+    for_each_of(first, last, count, request, stage, [&](std::size_t i) {
+      const std::size_t size = groups[i + 1] - groups[i];
+      look_at_edges(groups[i], {looked_at.data() + groups[i] - first_edge, size});
     });
     for (std::size_t i = first; i < last; ++i) {
-      hear_stop();
-      add_edge(static_cast<int>(i), looked_at[i - first], boxes);
+      for (int edge = groups[i]; edge < groups[i + 1]; ++edge) {
+        hear_stop();
+        add_edge(edge, looked_at[edge - first_edge], boxes);
+      }
+      find_joined_crease(groups[i], groups[i + 1]);
     }
   }
   ridge_tree_ = Bvh(boxes);
@@ -196,14 +103,34 @@ void Silhouettes::add_edge(int edge, const EdgeFaces& at, std::vector<Box>& boxe
   if (ridge_of_edge_[edge] == static_cast<int>(ridges_.size())) ridge_of_edge_[edge] = -1;
 }
 
-// The faces at the edge, the gap between them, and what other faces touch the edge.
-Silhouettes::EdgeFaces Silhouettes::look_at_edge(int edge) const {
+// At edges between the same points, from `first` on: the faces, the gap between them, and
+// what other faces touch them.
+void Silhouettes::look_at_edges(int first, std::span<EdgeFaces> found) const {
+  std::optional<EdgeTouches> touches;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    hear_stop();
+    const Edge& e = scene_->edges()[first + i];
+    EdgeFaces& at = found[i];
+    if (!look_at_own_faces(e, at)) continue;
+    // Faces along a chain of mesh edges merged into this one are its own.
+    std::vector<std::int32_t> own;
+    for (const int f : at.faces) own.push_back(scene_->faces()[f].facet);
+    sort_unique(own);
+    if (found.size() == 1) {
+      find_touching(e, EdgeTouches(*this, e.points, own).without({}), at);
+    } else {
+      if (!touches) touches.emplace(*this, e.points, std::span<const std::int32_t>{});
+      find_touching(e, touches->without(own), at);
+    }
+  }
+}
+
+// The faces at the edge and the gap between them; false where no line has a contact.
+bool Silhouettes::look_at_own_faces(const Edge& e, EdgeFaces& at) const {
   const Scene& s = *scene_;
-  const Edge& e = s.edges()[edge];
   const Point& e0 = s.point(e.points[0]);
   const Point& e1 = s.point(e.points[1]);
   // The third point of each face at the edge gives the direction of its half-plane.
-  EdgeFaces at;
   for (const Edge::Side& side : e.sides) {
     for (const int p : s.face_points(side.face)) {
       if (collinear(e0, e1, s.point(p))) continue;
@@ -220,18 +147,17 @@ Silhouettes::EdgeFaces Silhouettes::look_at_edge(int edge) const {
   }
   at.a = extreme_half_plane(e, at, Sign::Positive);
   at.b = extreme_half_plane(e, at, Sign::Negative);
-  if (!at.has_gap() && !polygon()) return at;
+  if (!at.has_gap() && !polygon()) return false;
   // In a closed object the gap must be outside: fronts face it.
   const bool closed = solid_behind(e.sides[0].face);
   at.reflex = closed && at.thirds.size() > 1 && e.kind == EdgeKind::Reflex;
-  if (at.reflex && !polygon()) return at;
+  if (at.reflex && !polygon()) return false;
   if (closed && e.kind == EdgeKind::NonManifold && at.has_gap() &&
       !fronts_face_gap(e, at)) {
-    if (!polygon()) return at;
+    if (!polygon()) return false;
     at.a = at.b = -1;
   }
-  find_touching(e, at);
-  return at;
+  return true;
 }
 
 // The half-plane at the edge to one side of which all others strictly are: a position in
@@ -241,25 +167,27 @@ int Silhouettes::extreme_half_plane(const Edge& e, const EdgeFaces& at,
   const Scene& s = *scene_;
   const Point& e0 = s.point(e.points[0]);
   const Point& e1 = s.point(e.points[1]);
-  for (std::size_t k = 0; k < at.thirds.size(); ++k) {
-    hear_stop_now();
-    bool ok = true;
-    for (std::size_t l = 0; l < at.thirds.size() && ok; ++l) {
-      if (l == k) continue;
-      const Sign t = orient3d(e0, e1, s.point(at.thirds[k]), s.point(at.thirds[l]));
-      if (t == Sign::Zero) {
-        // Same half-plane or the opposite one: told apart by any plane through the edge
-        // other than theirs.
-        const InPlaneSide left_of(s, at.faces[k]);
-        ok = left_of(e0, e1, s.point(at.thirds[k])) ==
-             left_of(e0, e1, s.point(at.thirds[l]));
-      } else {
-        ok = t == wanted;
-      }
-    }
-    if (ok) return static_cast<int>(k);
+  const auto beyond = [&](std::size_t k, std::size_t l) {
+    hear_stop();
+    const Sign t = orient3d(e0, e1, s.point(at.thirds[k]), s.point(at.thirds[l]));
+    if (t != Sign::Zero) return t == wanted;
+    // Same half-plane or the opposite one: told apart by any plane through the edge
+    // other than theirs.
+    const InPlaneSide left_of(s, at.faces[k]);
+    return left_of(e0, e1, s.point(at.thirds[k])) ==
+           left_of(e0, e1, s.point(at.thirds[l]));
+  };
+  if (at.thirds.empty()) return -1;
+  // A half-plane that has some other on its wrong side is none, and that other, which the
+  // one asked for has on its right side, stands in for it: one pass leaves one candidate.
+  std::size_t k = 0;
+  for (std::size_t l = 1; l < at.thirds.size(); ++l) {
+    if (!beyond(k, l)) k = l;
   }
-  return -1;
+  for (std::size_t l = 0; l < at.thirds.size(); ++l) {
+    if (l != k && !beyond(k, l)) return -1;
+  }
+  return static_cast<int>(k);
 }
 
 // Some face in half-plane a shows its front to the gap.
@@ -278,53 +206,19 @@ bool Silhouettes::fronts_face_gap(const Edge& e, const EdgeFaces& at) const {
 }
 
 // How faces that are not the edge's own touch it, and what it can become.
-void Silhouettes::find_touching(const Edge& e, EdgeFaces& at) const {
-  const Scene& s = *scene_;
-  const Point& e0 = s.point(e.points[0]);
-  const Point& e1 = s.point(e.points[1]);
-  const Box box = box_of(std::array<Point, 2>{e0, e1});
-  EdgeTouch touched = EdgeTouch::None;
-  std::vector<std::array<Rational, 2>> stretches;
-  std::vector<int> grounds;  // faces that contain a part of the edge
-  const auto is_own = [&](int f) {
-    // Faces along a chain of mesh edges merged into this one are its own.
-    return std::any_of(at.faces.begin(), at.faces.end(), [&](int own) {
-      return s.faces()[own].facet == s.faces()[f].facet;
-    });
-  };
-  face_tree_.traverse(
-      [&](const Box& other) {
-        return (polygon() || touched != EdgeTouch::ContainsInside) &&
-               boxes_meet(box, other);
-      },
-      [&](std::uint32_t item) {
-        hear_stop();
-        const int f = static_cast<int>(item);
-        if (!polygon() && touched == EdgeTouch::ContainsInside) return;
-        if (is_own(f)) return;
-        const EdgeTouch touch = touch_of(s, face_planes_[f], f, e0, e1);
-        touched = std::max(touched, touch);
-        if (touch == EdgeTouch::Pierced) at.pierced_by.push_back(f);
-        if (touch == EdgeTouch::ContainsInside) grounds.push_back(f);
-        if (touch == EdgeTouch::Touches && face_planes_[f](e0) == Sign::Zero &&
-            face_planes_[f](e1) == Sign::Zero) {
-          if (const auto stretch = stretch_inside(s, f, e0, e1))
-            stretches.push_back(*stretch), grounds.push_back(f);
-        }
-      });
-  const bool covered = cover_edge(std::move(stretches));
-  const bool inside_faces = covered || touched == EdgeTouch::ContainsInside;
+void Silhouettes::find_touching(const Edge& e, ForeignTouch found, EdgeFaces& at) const {
+  const EdgeTouch touched = found.touched;
+  const bool inside_faces = found.covered || touched == EdgeTouch::ContainsInside;
   // The foot of a wall is a valley of the union; what hangs below an open floor too.
-  at.foot = polygon() && inside_faces &&
-            std::any_of(grounds.begin(), grounds.end(), [&](int f) {
+  at.foot = polygon() && inside_faces && std::ranges::any_of(found.grounds, [&](int f) {
               const bool solid = solid_behind(f);
-              return std::any_of(at.thirds.begin(), at.thirds.end(), [&](int p) {
-                const Sign side = face_planes_[f](s.point(p));
+              return std::ranges::any_of(at.thirds, [&](int p) {
+                const Sign side = face_planes_[f](scene_->point(p));
                 return side == Sign::Positive || (!solid && side == Sign::Negative);
               });
             });
   at.touched = touched == EdgeTouch::Pierced || touched == EdgeTouch::Touches || at.foot;
-  if (touched != EdgeTouch::Pierced) at.pierced_by.clear();
+  at.pierced_by = std::move(found.pierced_by);
   at.buried = buried_stretches(e.points, at.pierced_by);
   const bool all_buried = touched == EdgeTouch::None && untouched_in_material(e.points);
   at.is_ridge = (!inside_faces || at.foot) && !all_buried;
@@ -359,19 +253,22 @@ bool Silhouettes::join_ridge(int edge, const EdgeFaces& at) {
   if (!ridge.can_graze() && grazes) {
     std::vector<Box> unused;
     std::vector<std::int32_t> objects = std::move(ridge.objects);
-    const std::int32_t first = ridge.edge;
     ridges_.pop_back();
     add_ridge(edge, at, unused);
     ridges_.back().objects = std::move(objects);
     ridges_.back().touched = true;
-    const bool crease = shows_crease(e.points, first, edge);
-    ridges_.back().ends_in_front = ridges_.back().ends_behind = crease;
-    ridges_.back().any_side = crease;
-    return true;
   }
-  const bool crease = shows_crease(e.points, std::min(ridge.edge, edge), edge);
-  ridge.ends_in_front = ridge.ends_behind = ridge.any_side = crease;
   return true;
+}
+
+// Lines can end at a ridge that several edges joined, those numbered from `first` up to
+// `end`, where the union of their faces has a crease.
+void Silhouettes::find_joined_crease(int first, int end) {
+  if (!polygon() || ridges_.empty()) return;
+  Ridge& ridge = ridges_.back();
+  if (ridge.points != scene_->edges()[first].points || ridge.objects.size() < 2) return;
+  ridge.ends_in_front = ridge.ends_behind = ridge.any_side =
+      shows_crease(ridge.points, first, end - 1);
 }
 
 // Of all edges between those ends with such numbers: lines can end there.

@@ -24,6 +24,7 @@
 namespace sightline::internal {
 
 class SolidIndex;
+struct ForeignTouch;
 
 /// How a line meets an edge, coming from a viewpoint: not at all from outside, grazing,
 /// or entering the solid there.
@@ -229,11 +230,12 @@ class Silhouettes {
   void find_touched_facets();
   void find_shells();
   struct EdgeFaces;  // the faces at one edge
-  [[nodiscard]] EdgeFaces look_at_edge(int edge) const;
+  void look_at_edges(int first, std::span<EdgeFaces> found) const;
+  bool look_at_own_faces(const Edge& e, EdgeFaces& at) const;
   [[nodiscard]] int extreme_half_plane(const Edge& e, const EdgeFaces& at,
                                        Sign wanted) const;
   [[nodiscard]] bool fronts_face_gap(const Edge& e, const EdgeFaces& at) const;
-  void find_touching(const Edge& e, EdgeFaces& at) const;
+  void find_touching(const Edge& e, ForeignTouch found, EdgeFaces& at) const;
   [[nodiscard]] std::vector<BuriedStretch> buried_stretches(
       std::array<std::int32_t, 2> points, std::span<const std::int32_t> pierced_by) const;
   [[nodiscard]] bool untouched_in_material(std::array<std::int32_t, 2> points) const;
@@ -244,6 +246,7 @@ class Silhouettes {
   void add_ridge(int edge, const EdgeFaces& at, std::vector<Box>& boxes);
   void add_gaps(int edge, const EdgeFaces& at, std::vector<Box>& boxes);
   bool join_ridge(int edge, const EdgeFaces& at);
+  void find_joined_crease(int first, int end);
   [[nodiscard]] bool shows_crease(std::array<std::int32_t, 2> points,
                                   std::int32_t first_edge, std::int32_t last_edge) const;
   void find_stars(const Request& request, Stage& stage);
