@@ -103,6 +103,7 @@ struct StabbingSwath {
 
 struct PortalStatistics {
   std::size_t candidates = 0;  ///< lines constructed by the last push
+  std::size_t repeated = 0;    ///< candidates that were extremal lines known already
   std::size_t kept = 0;        ///< extremal lines that outlived it
   std::size_t found = 0;       ///< extremal lines that it added
 };

@@ -138,6 +138,13 @@ void Search::keep(HeldLine held) {
 void Search::consider(const ExactLine& line) {
   deadline_.check("stabbing lines");
   ++s_.statistics.candidates;
+  // On a regulus most lines are found many times, and to tell how one meets all portals
+  // costs far more than to know it again.
+  if (std::ranges::any_of(
+          s_.held, [&](const HeldLine& known) { return same_line(known.line, line); })) {
+    ++s_.statistics.repeated;
+    return;
+  }
   for (int i = latest_; i >= 0; --i) {
     if (!meets(line, s_.portals[i])) return;
   }

@@ -666,6 +666,16 @@ TEST(PortalSequence, TriesFewTriplesOfScrewsAndReguli) {
   EXPECT_LE(most_candidates(rulings(16, 4)), 4'000U);
 }
 
+// The lines along the other rulings come from many triples; each is met with the portals
+// once.
+TEST(PortalSequence, KnowsTheLinesOfARegulusAgain) {
+  PortalSequence s;
+  for (const NaivePortal& p : rulings(16, 4)) s.push(p);
+  const PortalStatistics& last = s.last_push();
+  EXPECT_GT(last.candidates, 500U);
+  EXPECT_GT(last.repeated, last.candidates / 3);
+}
+
 // Rows of equal doors, at any distances, sheared, turned by right angles, at any power of
 // two: what stabs the first and the last stabs all.
 TEST(PortalSequence, RowsOfDoorsHaveSixteenLinesWhateverTheirMap) {
