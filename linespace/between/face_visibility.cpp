@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <map>
 #include <mutex>
 
 #include "linespace/between/occluder_source.h"
@@ -14,6 +15,8 @@
 #include "linespace/numbers/unit_scale.h"
 #include "linespace/scene/scene.h"
 #include "linespace/seams.h"
+#include "linespace/silhouettes/silhouettes.h"
+#include "linespace/space/bvh.h"
 #include "linespace/work/stage.h"
 
 namespace sightline {
@@ -73,6 +76,15 @@ bool in_one_plane(const Scene& scene, int a, int b) {
   });
 }
 
+std::vector<Box> boxes_of_faces(const Scene& scene) {
+  std::vector<Box> boxes;
+  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
+    hear_stop();
+    boxes.push_back(box_of(polygon_of(scene, static_cast<int>(f))));
+  }
+  return boxes;
+}
+
 /// What a pair may cost in one pass.
 struct Effort {
   int samples;
@@ -100,6 +112,7 @@ struct FaceVisibility::Impl {
   int scaled_by;
   OccluderSet set;           // the pieces times 2^scaled_by
   std::vector<int> face_of;  // per piece
+  Bvh faces;                 // of the scene
 
   // Hears a stop of the thread's own scopes.
   Impl(const Scene& s, double seam) : Impl(s, seam > 0, FacePieces(s, seam)) {}
@@ -108,7 +121,8 @@ struct FaceVisibility::Impl {
         grown(is_grown),
         scaled_by(pieces.scale()),
         set(scaled(std::move(pieces.polygons), scaled_by)),
-        face_of(std::move(pieces.face)) {}
+        face_of(std::move(pieces.face)),
+        faces(boxes_of_faces(s)) {}
 
   // In the units of the scene.
   [[nodiscard]] Polygon piece(int number) const {
@@ -136,12 +150,14 @@ struct FaceVisibility::Impl {
   PairDecision decide_pair(int a, int b, std::vector<int>& recent, const Effort& effort,
                            const VisibilityRequest& request,
                            const std::function<bool()>& stop) const;
-  [[nodiscard]] bool hidden_by_own_solid(int a, int b) const;
+  [[nodiscard]] bool behind_solid(int a, int b) const;
+  [[nodiscard]] std::vector<int> covering(int a) const;
 };
 
-// Face a is one of a convex solid that b stays clear of, and b is behind a's plane: all
-// segments go into the solid and leave it through another of its faces.
-bool FaceVisibility::Impl::hidden_by_own_solid(int a, int b) const {
+// Face a is one of a convex solid whose inside b does not reach, and b is behind a's
+// plane: all segments go into the solid, and leave it through another of its faces or end
+// there.
+bool FaceVisibility::Impl::behind_solid(int a, int b) const {
   const Object& solid = scene.objects()[scene.faces()[a].object];
   if (!solid.convex) return false;
   const auto plane = plane_corners(scene, a);
@@ -149,13 +165,35 @@ bool FaceVisibility::Impl::hidden_by_own_solid(int a, int b) const {
     return orient3d(plane[0], plane[1], plane[2], scene.point(p)) != Sign::Positive;
   });
   if (!behind) return false;
-  // A face's plane with all of b in front: the solid does not reach to b.
+  // A face's plane with all of b in front or in it: what is inside the solid is behind.
   return std::ranges::any_of(solid.faces, [&](int f) {
     const auto side = plane_corners(scene, f);
     return std::ranges::all_of(scene.face_points(b), [&](int p) {
-      return orient3d(side[0], side[1], side[2], scene.point(p)) == Sign::Positive;
+      return orient3d(side[0], side[1], side[2], scene.point(p)) != Sign::Negative;
     });
   });
+}
+
+// Face a, and the faces of convex solids in its plane that it lies in as a whole: solids
+// glued to it.
+std::vector<int> FaceVisibility::Impl::covering(int a) const {
+  std::vector<int> found{a};
+  const auto corners = scene.face_points(a);
+  const Polygon polygon = polygon_of(scene, a);
+  faces.traverse([&](const Box& box) { return boxes_meet(box, box_of(polygon)); },
+                 [&](std::uint32_t item) {
+                   const int face = static_cast<int>(item);
+                   if (face == a || !scene.objects()[scene.faces()[face].object].convex ||
+                       !in_one_plane(scene, a, face)) {
+                     return;
+                   }
+                   const bool holds_all = std::ranges::all_of(corners, [&](int p) {
+                     return locate_in_plane(scene, face, scene.point(p)) !=
+                            PointInFace::Outside;
+                   });
+                   if (holds_all) found.push_back(face);
+                 });
+  return found;
 }
 
 // `recent`: what was found for the last target of the same source is tried first.
@@ -386,8 +424,18 @@ GroupAnswer FaceVisibility::between(std::span<const int> as, std::span<const int
   const auto decide_pair = [this](auto&&... terms) {
     return impl_->decide_pair(std::forward<decltype(terms)>(terms)...);
   };
-  const auto is_hidden = [this](int a, int b) {
-    return impl_->hidden_by_own_solid(a, b) || impl_->hidden_by_own_solid(b, a);
+  std::map<int, std::vector<int>> covering;
+  for (const auto& faces : {as, bs}) {
+    for (const int face : faces) {
+      if (!covering.contains(face)) covering[face] = impl_->covering(face);
+    }
+  }
+  const auto starts_inside = [&](int a, int b) {
+    return std::ranges::any_of(covering.at(a),
+                               [&](int face) { return impl_->behind_solid(face, b); });
+  };
+  const auto is_hidden = [&](int a, int b) {
+    return starts_inside(a, b) || starts_inside(b, a);
   };
   return GroupQuestion(as, bs, all_pairs, request, decide_pair, is_hidden).run();
 }

@@ -51,6 +51,28 @@ TEST(FaceVisibility, FacesOfABoxSeeEachOtherInside) {
   }
 }
 
+// Three boxes in a row, glued together: what is between their faces is material.
+TEST(FaceVisibility, GluedBoxesDoNotSeeThroughEachOther) {
+  const AlignedBox first{{0, 0, 0}, {1, 1, 1}}, last{{2, 0, 0}, {3, 1, 1}};
+  const auto in_row = [&](const AlignedBox& middle) {
+    return Scene(boxes_soup({first, middle, last}));
+  };
+  // The middle one as large, larger: all pairs are hidden.
+  for (const double more : {0.0, 0.5}) {
+    const Scene scene = in_row({{1, -more, -more}, {2, 1 + more, 1 + more}});
+    EXPECT_EQ(between(scene, "box0", "box2"), Verdict::Hidden) << more;
+    EXPECT_EQ(between(scene, "box2", "box0"), Verdict::Hidden) << more;
+  }
+  const Scene row = in_row({{1, 0, 0}, {2, 1, 1}});
+  EXPECT_EQ(between(row, "box0", "box1"), Verdict::Hidden);
+  EXPECT_EQ(between(row, "box1", "box2"), Verdict::Hidden);
+  // Around a lower one they see each other; an equal one a hair away hides nothing of the
+  // first from itself.
+  EXPECT_EQ(between(in_row({{1, 0, 0}, {2, 1, 0.5}}), "box0", "box2"), Verdict::Visible);
+  EXPECT_EQ(between(in_row({{1 + 0x1p-30, 0, 0}, {2, 1, 1}}), "box0", "box1"),
+            Verdict::Visible);
+}
+
 TEST(FaceVisibility, AllPairsAgreeWithAskingWithAllFacesAsOccluders) {
   std::vector<AlignedBox> boxes;
   for (int i = 0; i < 3; ++i) {
