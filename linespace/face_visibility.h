@@ -61,12 +61,12 @@ class FaceVisibility {
   [[nodiscard]] FacePairAnswer between(int a, int b,
                                        const VisibilityRequest& request = {}) const;
 
-  /// Whether some face of `as` sees some face of `bs`, not counting segments that begin or
-  /// end in a convex solid which the other face does not reach into: the face's own, or
-  /// one glued to all of it.  With all_pairs every pair is decided as by between(a, b) and
-  /// listed.  A visible pair ends the question: what the other pairs would
-  /// cost does not count.  On `request.threads` threads; the answer, and the pair that is
-  /// told, are the same for any number.
+  /// Whether some face of `as` sees some face of `bs`, not counting segments that begin
+  /// or end in a convex solid which the other face does not reach into: the face's own,
+  /// or one glued to all of it.  With all_pairs every pair is decided as by between(a, b)
+  /// and listed.  A visible pair ends the question: what the other pairs would cost does
+  /// not count.  On `request.threads` threads; the answer, and the pair that is told, are
+  /// the same for any number.
   [[nodiscard]] GroupAnswer between(std::span<const int> as, std::span<const int> bs,
                                     bool all_pairs,
                                     const VisibilityRequest& request = {}) const;
