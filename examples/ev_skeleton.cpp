@@ -28,16 +28,16 @@ int main(int argc, char** argv) {
     node.end ? ++ending : ++grazing[node.kind];
   }
   std::printf("%s: %zu faces, %zu EV arcs\n", file.c_str(), scene.faces().size(),
-              skeleton.arcs.size());
+              skeleton.ev().size());
   std::printf("VV %d, VEE %d, EVE %d, FvE %d, degenerate %d, ending %d\n",
               grazing[Kind::VV], grazing[Kind::VEE], grazing[Kind::EVE],
               grazing[Kind::FvE], grazing[Kind::Degenerate], ending);
 
   // Every arc knows its generators: here a corner and an edge of which it sees a part.
-  if (skeleton.arcs.empty()) return 1;
-  const auto& arc = skeleton.arcs.front();
-  const auto& vertex = scene.point(arc.vertex);
+  if (skeleton.ev().empty()) return 1;
+  const auto& arc = skeleton.ev().front();
+  const auto& vertex = scene.point(arc.vertex());
   std::printf("the corner (%g %g %g) sees edge %d from %g to %g\n", vertex.x(),
-              vertex.y(), vertex.z(), arc.edge, arc.range[0], arc.range[1]);
+              vertex.y(), vertex.z(), arc.edge(), arc.range[0], arc.range[1]);
   return skeleton.complete ? 0 : 1;
 }

@@ -26,11 +26,11 @@ int main(int argc, char** argv) {
     switch (event.kind) {
       case sightline::EventKind::EV: {
         const auto& arc = skeleton.arcs[event.id];
-        std::printf("EV: vertex %d and edge %d line up\n", arc.vertex, arc.edge);
+        std::printf("EV: vertex %d and edge %d line up\n", arc.vertex(), arc.edge());
         break;
       }
       case sightline::EventKind::EEE: {
-        const auto& e = skeleton.eee_arcs[event.id].edges;
+        const auto& e = skeleton.arcs[event.id].edges();
         std::printf("EEE: edges %d, %d, %d cross in one point\n", e[0], e[1], e[2]);
         break;
       }

@@ -22,16 +22,16 @@ int main(int argc, char** argv) {
     if (!node.end) ++count[node.kind];
   }
   std::printf("%s: %zu faces, %zu EV arcs, %zu EEE arcs\n", file.c_str(),
-              scene.faces().size(), skeleton.arcs.size(), skeleton.eee_arcs.size());
+              scene.faces().size(), skeleton.ev().size(), skeleton.eee().size());
   std::printf("VV %d, VEE %d, EVE %d, EEEE %d, FvE %d, FEE %d, degenerate %d\n",
               count[Kind::VV], count[Kind::VEE], count[Kind::EVE], count[Kind::EEEE],
               count[Kind::FvE], count[Kind::FEE], count[Kind::Degenerate]);
 
   // An EEE arc: all lines through a stretch of its first edge, its middle and last edge.
-  if (!skeleton.eee_arcs.empty()) {
-    const auto& arc = skeleton.eee_arcs.front();
-    std::printf("edges %d, %d, %d: from %g to %g along the first\n", arc.edges[0],
-                arc.edges[1], arc.edges[2], arc.range[0], arc.range[1]);
+  if (!skeleton.eee().empty()) {
+    const auto& arc = skeleton.eee().front();
+    std::printf("edges %d, %d, %d: from %g to %g along the first\n", arc.edges()[0],
+                arc.edges()[1], arc.edges()[2], arc.range[0], arc.range[1]);
     for (const auto n : arc.nodes) {
       const auto& [a, b] = skeleton.nodes[n].segment;
       std::printf("  ends in the line (%g %g %g) to (%g %g %g)\n", a.x(), a.y(), a.z(),

@@ -8,6 +8,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -66,30 +67,39 @@ struct SkeletonNode {
   std::array<Point, 2> segment;
 };
 
-/// A maximal open interval of an edge that one vertex sees, with the same contacts: in
-/// solid mode it grazes both, in polygon mode either may be an end contact all along.
-struct SkeletonArc {
-  std::int32_t vertex;         ///< point id
-  std::int32_t edge;           ///< edge id
-  bool self = false;           ///< vertex and edge are of one object
-  std::array<bool, 2> ends{};  ///< the vertex, the edge is an end contact
-  /// Parameters along the edge (0 at points[0], 1 at points[1]), rounded to double, of
-  /// the ends of the open interval, and the nodes there.
-  std::array<double, 2> range;
-  std::array<std::uint32_t, 2> nodes;
-};
+enum class ArcKind : std::uint8_t { EV, EEE };
 
-/// A connected set of lines through three edges that support and see along them; in
-/// polygon mode either outer edge may be an end contact all along.
-struct EeeArc {
-  /// Edge ids in order along the line, starting from the one that `range` is told on.
-  std::array<std::int32_t, 3> edges;
-  bool self = false;           ///< two of the edges are of one object
-  std::array<bool, 2> ends{};  ///< the first, the last edge is an end contact
-  /// Parameters on edges[0], rounded, of the ends of the open interval, and the nodes.
-  std::array<double, 2> range;
-  std::array<std::uint32_t, 2> nodes;
+/// A critical line set: a connected set of lines with the same contacts that support them
+/// and see along them.  EV: through a vertex and an open interval of an edge; EEE:
+/// through three edges.  In polygon mode either outer contact may be an end contact all
+/// along.
+struct SkeletonArc {
+  /// EV: point id, edge id, -1.  EEE: edge ids in order along the line, starting from the
+  /// one that `range` is told on.  By name: vertex(), edge(), edges().
+  std::array<std::int32_t, 3> generators{-1, -1, -1};
+  ArcKind kind = ArcKind::EV;
+  bool self = false;           ///< two of the generators are of one object
+  std::array<bool, 2> ends{};  ///< the first, the last generator is an end contact
+  /// Parameters along the edge, EEE: along the first one (0 at points[0], 1 at
+  /// points[1]), rounded to double, of the ends of the open interval, and the nodes
+  /// there.
+  std::array<double, 2> range{};
+  std::array<std::uint32_t, 2> nodes{};
+
+  [[nodiscard]] static SkeletonArc ev(std::int32_t vertex, std::int32_t edge) {
+    return {.generators = {vertex, edge, -1}, .kind = ArcKind::EV};
+  }
+  [[nodiscard]] static SkeletonArc eee(const std::array<std::int32_t, 3>& edges) {
+    return {.generators = edges, .kind = ArcKind::EEE};
+  }
+  [[nodiscard]] bool is_ev() const { return kind == ArcKind::EV; }
+  /// EV only.
+  [[nodiscard]] std::int32_t vertex() const { return generators[0]; }
+  [[nodiscard]] std::int32_t edge() const { return generators[1]; }
+  /// EEE only.
+  [[nodiscard]] const std::array<std::int32_t, 3>& edges() const { return generators; }
 };
+static_assert(sizeof(SkeletonArc) == 40);
 
 /// What SkeletonRequest::feature_size left out.
 struct Simplified {
@@ -110,8 +120,8 @@ struct Simplified {
 /// threads.
 struct Skeleton {
   std::vector<SkeletonNode> nodes;
-  std::vector<SkeletonArc> arcs;  ///< EV
-  std::vector<EeeArc> eee_arcs;
+  /// EV arcs, then EEE arcs.  An arc's number is its position here.
+  std::vector<SkeletonArc> arcs;
   std::vector<Generator> generator_pool;
   EventMode events = EventMode::Solid;
   bool complete = true;
@@ -124,10 +134,24 @@ struct Skeleton {
   Simplified simplified;
   StageCounts predicates;
 
+  /// The arcs of one kind.  Cost: logarithmic.
+  [[nodiscard]] std::span<const SkeletonArc> ev() const& {
+    return std::span(arcs).first(ev_count());
+  }
+  [[nodiscard]] std::span<const SkeletonArc> eee() const& {
+    return std::span(arcs).subspan(ev_count());
+  }
+  void ev() const&& = delete;
+  void eee() const&& = delete;
+  [[nodiscard]] std::size_t ev_count() const {
+    const auto end = std::ranges::partition_point(arcs, &SkeletonArc::is_ev);
+    return static_cast<std::size_t>(end - arcs.begin());
+  }
+
   /// Of its nodes, arcs and generators: what Request::budget_bytes limits.
   [[nodiscard]] std::size_t bytes() const {
     return nodes.size() * sizeof(SkeletonNode) + arcs.size() * sizeof(SkeletonArc) +
-           eee_arcs.size() * sizeof(EeeArc) + generator_pool.size() * sizeof(Generator);
+           generator_pool.size() * sizeof(Generator);
   }
   [[nodiscard]] std::span<const Generator> generators(const SkeletonNode& node) const {
     return {generator_pool.data() + node.first_generator, node.generator_count};
@@ -138,6 +162,5 @@ struct Skeleton {
 /// three edges of an EEE arc lie so that their lines are no set of one parameter: two
 /// edges in one line, or all in one plane.
 [[nodiscard]] std::optional<Swath> swath_of(const Scene& scene, const SkeletonArc& arc);
-[[nodiscard]] std::optional<Swath> swath_of(const Scene& scene, const EeeArc& arc);
 
 }  // namespace sightline

@@ -13,24 +13,6 @@
 
 namespace sightline {
 
-enum class ArcKind : std::uint8_t { EV, EEE };
-
-/// An arc of a skeleton: position in Skeleton::arcs or Skeleton::eee_arcs.
-struct ArcRef {
-  ArcKind kind;
-  std::uint32_t id;
-  friend auto operator<=>(const ArcRef&, const ArcRef&) = default;
-};
-
-/// Arcs in one row, the EV arcs and then the EEE arcs: the one at this position, of a
-/// skeleton with so many EV arcs; and all of them.
-[[nodiscard]] constexpr ArcRef arc_at(std::size_t position, std::size_t ev_count) {
-  const bool ev = position < ev_count;
-  return {ev ? ArcKind::EV : ArcKind::EEE,
-          static_cast<std::uint32_t>(ev ? position : position - ev_count)};
-}
-[[nodiscard]] std::vector<ArcRef> all_arcs(const Skeleton& skeleton);
-
 /// Immutable; safe to share between threads; keeps references to scene and skeleton.
 /// Built in time linear in its size; every look-up is a slice of an array, no geometry.
 class SkeletonIndex {
@@ -38,13 +20,14 @@ class SkeletonIndex {
   /// `skeleton` must be of this scene.
   SkeletonIndex(const Scene& scene, const Skeleton& skeleton);
 
-  /// Arcs that end at a node, EV first; an arc that both begins and ends there twice.
-  [[nodiscard]] std::span<const ArcRef> arcs_at(std::uint32_t node) const {
+  /// Numbers of the arcs that end at a node, EV first; an arc that both begins and ends
+  /// there twice.
+  [[nodiscard]] std::span<const std::uint32_t> arcs_at(std::uint32_t node) const {
     return slice(node_arcs_, node_starts_, node);
   }
-  /// Arcs with that generator: a vertex's EV arcs, an edge's EV and EEE arcs; none for a
-  /// facet.
-  [[nodiscard]] std::span<const ArcRef> arcs_of(const Generator& generator) const;
+  /// Numbers of the arcs with that generator: a vertex's EV arcs, an edge's EV and EEE
+  /// arcs; none for a facet.
+  [[nodiscard]] std::span<const std::uint32_t> arcs_of(const Generator& generator) const;
   /// Nodes with that generator among their contacts.
   [[nodiscard]] std::span<const std::uint32_t> nodes_of(const Generator& generator) const;
 
@@ -75,8 +58,7 @@ class SkeletonIndex {
   const Skeleton& skeleton_;
   std::size_t points_, edges_, facets_;
   std::vector<std::uint32_t> node_starts_, arc_starts_, used_starts_;
-  std::vector<ArcRef> node_arcs_, generator_arcs_;
-  std::vector<std::uint32_t> generator_nodes_;
+  std::vector<std::uint32_t> node_arcs_, generator_arcs_, generator_nodes_;
 };
 
 }  // namespace sightline

@@ -25,23 +25,16 @@ class SkeletonLines {
   /// All of them: where an outer contact is an end contact the free segment ends there,
   /// and it is the first or the last of the contacts, blocked.
   ///
-  /// The line through the arc's vertex (position 0) and the point of its edge at
-  /// parameter s (position 1), exactly, for s strictly inside the arc's range.  Cost:
-  /// some 10 microseconds.
-  [[nodiscard]] FreeSegment line(const SkeletonArc& arc, double s) const;
-
-  /// The line through the point of the arc's first edge at parameter s (position 0), the
-  /// middle edge, and the last edge (position 1), exactly, for s strictly inside the
-  /// arc's range.  nullopt when the plane of that point and the middle edge is parallel
-  /// to the last edge, which happens only outside the arc.  Cost as above.
-  [[nodiscard]] std::optional<FreeSegment> line(const EeeArc& arc, double s) const;
+  /// The line of an arc at a parameter s strictly inside its range, exactly.  EV: through
+  /// the vertex (position 0) and the point of the edge at s (position 1).  EEE: through
+  /// the point of the first edge at s (position 0), the middle edge, and the last edge
+  /// (position 1); nullopt when the plane of that point and the middle edge is parallel
+  /// to the last edge, which happens only outside the arc.  Cost: some 10 microseconds.
+  [[nodiscard]] std::optional<FreeSegment> line(const SkeletonArc& arc, double s) const;
 
   /// The points of line(arc, s) at positions 0 and 1, exactly.  Of s with few digits they
-  /// have few.
-  [[nodiscard]] std::array<ExactPosition, 2> points(const SkeletonArc& arc,
-                                                    double s) const;
-  /// The same; nullopt where line(arc, s) is.
-  [[nodiscard]] std::optional<std::array<ExactPosition, 2>> points(const EeeArc& arc,
+  /// have few.  nullopt where line(arc, s) is.
+  [[nodiscard]] std::optional<std::array<ExactPosition, 2>> points(const SkeletonArc& arc,
                                                                    double s) const;
   /// Two points of a node's line, exactly; nullopt where its generators do not tell the
   /// line (as in line() below), and where it has no rational points.
@@ -54,11 +47,10 @@ class SkeletonLines {
     FreeSegment line;             ///< at the middle of the range
   };
   /// The parts of an arc in order.  Parts shorter than 2^-38 of the edge may be left out
-  /// (a neighbour's range then covers theirs).  Cost: about a millisecond; more where
-  /// many faces meet the arc's plane.
+  /// (a neighbour's range then covers theirs).  Cost: EV about a millisecond, more where
+  /// many faces meet the arc's plane; EEE some 10 microseconds a piece and what ends()
+  /// costs.
   [[nodiscard]] std::vector<Piece> pieces(const SkeletonArc& arc) const;
-  /// The same.  Cost: some 10 microseconds a piece and what ends() costs.
-  [[nodiscard]] std::vector<Piece> pieces(const EeeArc& arc) const;
 
   /// A piece without its line: the faces touched by the contact that ends it, before the
   /// first contact (position 0) and beyond the last; empty for the outside.  An end
@@ -74,7 +66,6 @@ class SkeletonLines {
   /// What pieces() says of the far ends.  Cost: some 10 microseconds where no sign is
   /// zero; else that of pieces() on every part where anything could change.
   [[nodiscard]] std::vector<EndPiece> ends(const SkeletonArc& arc) const;
-  [[nodiscard]] std::vector<EndPiece> ends(const EeeArc& arc) const;
 
   /// The line of a node of any kind, from its first contact (position 0) to its last (1):
   /// its contacts in order, each with the edges, corners and faces that it touches.
@@ -92,6 +83,9 @@ class SkeletonLines {
                                                 const SkeletonNode& node) const;
 
  private:
+  [[nodiscard]] std::vector<Piece> ev_pieces(const SkeletonArc& arc) const;
+  [[nodiscard]] std::vector<Piece> eee_pieces(const SkeletonArc& arc) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -24,7 +24,7 @@ enum class EventKind : std::uint8_t { EV, EEE, F };
 /// Where a path crosses an event.
 struct ViewEvent {
   EventKind kind;
-  std::uint32_t id;  ///< position in Skeleton::arcs or eee_arcs; F: facet id
+  std::uint32_t id;  ///< position in Skeleton::arcs; F: facet id
   /// EV, EEE: the viewpoint is before the first contact (0: it sees the vertex, or the
   /// first edge, nearest) or beyond the last (1).  F: 0.
   std::uint8_t side = 0;
@@ -62,9 +62,10 @@ class ViewEvents {
   /// microseconds an event.  The first call builds an index of all arcs by space, on all
   /// cores: about two microseconds and 130 bytes an arc.
   [[nodiscard]] std::vector<ViewEvent> crossed(const Point& a, const Point& b) const;
-  /// Of these arcs only, and no facets; asks each of them, and needs no index.
+  /// Of the arcs with these numbers only, and no facets; asks each of them, and needs no
+  /// index.
   [[nodiscard]] std::vector<ViewEvent> crossed(const Point& a, const Point& b,
-                                               std::span<const ArcRef> arcs) const;
+                                               std::span<const std::uint32_t> arcs) const;
 
   /// Bytes of the index of arcs, which this builds if need be.
   [[nodiscard]] std::size_t index_bytes() const;

@@ -79,9 +79,6 @@ inline constexpr int kDefectsListed = 1000;
                              std::size_t node);
 [[nodiscard]] Json arc_json(const Scene& scene, const Skeleton& skeleton,
                             std::size_t arc);
-/// The same of an EEE arc; its "id" counts on from the EV arcs.
-[[nodiscard]] Json eee_arc_json(const Scene& scene, const Skeleton& skeleton,
-                                std::size_t arc);
 
 /// What a feature size left out: {"feature_size", "edges", "vertices", "objects",
 /// "arcs"}, all counts; with ids also "edge_ids", "vertex_ids", "object_ids",

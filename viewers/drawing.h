@@ -57,7 +57,8 @@ struct SceneView {
                                    std::span<const Stroke> strokes,
                                    const ViewOptions& options = {});
 
-/// The triangle between vertex and edge part of each arc listed; `opacity` of one.
+/// The triangle between vertex and edge part of each EV arc listed by number; `opacity`
+/// of one.
 void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
               std::span<const int> arcs, float opacity);
 
@@ -68,13 +69,14 @@ constexpr double kEeeDeviation = 1e-3;
 /// The arc's lines from end to end, to kEeeDeviation of the scene's diagonal
 /// (Swath::rungs).
 [[nodiscard]] std::vector<std::array<Point, 2>> rungs_of(const Scene& scene,
-                                                         const EeeArc& arc);
+                                                         const SkeletonArc& arc);
 
 /// Swath::spanned_volume of an arc: how much there is to see of its curvature.
-[[nodiscard]] double spanned_volume(const Scene& scene, const EeeArc& arc);
+[[nodiscard]] double spanned_volume(const Scene& scene, const SkeletonArc& arc);
 
 /// The surface of an EEE arc between its outer edges, to kEeeDeviation.
-void add_eee_arc(Drawing& drawing, const Scene& scene, const EeeArc& arc, float opacity);
+void add_eee_arc(Drawing& drawing, const Scene& scene, const SkeletonArc& arc,
+                 float opacity);
 
 /// The whole edge, above everything that hides it by `hidden_opacity`.
 void add_edge(Drawing& drawing, const Scene& scene, int edge, const Colour& colour,

@@ -22,15 +22,11 @@ struct FarEnds {
   std::vector<Contact> contacts;
 };
 
-/// Along the line through an arc's vertex and the point of its edge at parameter s.
-[[nodiscard]] FarEnds far_ends(const Scene& scene, const SkeletonLines& lines,
-                               const SkeletonArc& arc, double s);
-
-/// Along the line of an EEE arc through the point of its first edge at parameter s, which
-/// must lie inside the range; nullopt where rounding leaves no such line.
+/// Along the line of an arc at parameter s (SkeletonLines::line); EEE: nullopt where s is
+/// not inside the range, or rounding leaves no such line.
 [[nodiscard]] std::optional<FarEnds> far_ends(const Scene& scene,
                                               const SkeletonLines& lines,
-                                              const EeeArc& arc, double s);
+                                              const SkeletonArc& arc, double s);
 
 /// Along a node's line; nullopt where SkeletonLines gives none.
 [[nodiscard]] std::optional<FarEnds> far_ends(const Scene& scene,

@@ -12,7 +12,6 @@ namespace sightline::viewers {
 /// "EV", "EV_self"; "EEE", "EEE_self"; "VV", "VEE", "FvE_self", ...: the names of
 /// CONTRACT.md.
 [[nodiscard]] std::string kind_name(const SkeletonArc& arc);
-[[nodiscard]] std::string kind_name(const EeeArc& arc);
 [[nodiscard]] std::string kind_name(const SkeletonNode& node);
 
 /// Every name that kind_name() gives, arcs first.

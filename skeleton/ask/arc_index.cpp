@@ -23,7 +23,7 @@ double fineness(const Scene& scene, const Skeleton& skeleton, const EndIndex& en
     std::vector<ChartBox> found;
     std::size_t arcs = 0;
     for (std::size_t i = 0; i < count; i += stride, ++arcs) {
-      viewing_boxes(scene, skeleton, ends, frame, arc_at(i, skeleton.arcs.size()), fine,
+      viewing_boxes(scene, skeleton, ends, frame, static_cast<std::uint32_t>(i), fine,
                     found);
     }
     return static_cast<double>(found.size()) / static_cast<double>(arcs);
@@ -59,8 +59,8 @@ class Part {
 }  // namespace
 
 ArcIndex::ArcIndex(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends)
-    : ev_count_(skeleton.arcs.size()), frame_(scene) {
-  const std::size_t count = skeleton.arcs.size() + skeleton.eee_arcs.size();
+    : frame_(scene) {
+  const std::size_t count = skeleton.arcs.size();
   if (count == 0) return;
   const double fine = fineness(scene, skeleton, ends, frame_, count);
   constexpr std::size_t kArcsAtOnce = 256;
@@ -81,7 +81,8 @@ ArcIndex::ArcIndex(const Scene& scene, const Skeleton& skeleton, const EndIndex&
         const std::size_t from = batch * kArcsAtOnce;
         for (std::size_t i = from; i < std::min(count, from + kArcsAtOnce); ++i) {
           boxes.clear();
-          viewing_boxes(scene, skeleton, ends, frame_, arc_at(i, ev_count_), fine, boxes);
+          viewing_boxes(scene, skeleton, ends, frame_, static_cast<std::uint32_t>(i),
+                        fine, boxes);
           for (const ChartBox& b : boxes) {
             found.push_back({b.chart, {b.box, b.slab, static_cast<std::uint32_t>(i)}});
           }
@@ -97,7 +98,8 @@ ArcIndex::ArcIndex(const Scene& scene, const Skeleton& skeleton, const EndIndex&
   }
 }
 
-std::optional<std::vector<ArcRef>> ArcIndex::near(const Point& a, const Point& b) const {
+std::optional<std::vector<std::uint32_t>> ArcIndex::near(const Point& a,
+                                                         const Point& b) const {
   // Points of the path are then off by less than 2^-30 in each chart.
   constexpr double kFar = 0x1p20;
   const Point from = frame_(a);
@@ -143,10 +145,7 @@ std::optional<std::vector<ArcRef>> ArcIndex::near(const Point& a, const Point& b
   }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
-  std::vector<ArcRef> arcs;
-  arcs.reserve(found.size());
-  for (const std::uint32_t number : found) arcs.push_back(arc_at(number, ev_count_));
-  return arcs;
+  return found;
 }
 
 std::size_t ArcIndex::boxes() const {

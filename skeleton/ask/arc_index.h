@@ -19,17 +19,16 @@ class ArcIndex {
  public:
   ArcIndex(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends);
 
-  /// Arcs, ascending: all that ViewEvents may report on the
+  /// Numbers of arcs, ascending: all that ViewEvents may report on the
   /// segment from a to b, and others near it; nullopt where a point is so far out (2^20
   /// times the scene's size) that all may be.
-  [[nodiscard]] std::optional<std::vector<ArcRef>> near(const Point& a,
-                                                        const Point& b) const;
+  [[nodiscard]] std::optional<std::vector<std::uint32_t>> near(const Point& a,
+                                                               const Point& b) const;
 
   [[nodiscard]] std::size_t boxes() const;
   [[nodiscard]] std::size_t bytes() const;
 
  private:
-  std::size_t ev_count_;  // of the arcs numbered first
   Frame frame_;
   std::array<BoxTree, kCharts> trees_;
 };

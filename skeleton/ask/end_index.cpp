@@ -39,8 +39,7 @@ EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& 
     lines.emplace(scene, request);
   } catch (const Stopped&) {  // nothing is found then: not complete
   }
-  const std::size_t ev = skeleton.arcs.size();
-  const std::size_t count = ev + skeleton.eee_arcs.size();
+  const std::size_t count = skeleton.arcs.size();
   constexpr std::size_t kArcsAtOnce = 64;
   std::vector<Entry> by_facets, by_objects, by_facet;
   piece_starts_.assign(1, 0);
@@ -48,7 +47,7 @@ EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& 
   const auto object_of = [&](std::int32_t facet) {
     return facet == kOutside ? kOutside : scene.facets()[facet].object;
   };
-  const auto add = [&](const ArcRef& arc, const Ends& ends) {
+  const auto add = [&](std::uint32_t arc, const Ends& ends) {
     const std::size_t first = pieces_.size();
     for (const auto& end : ends) {
       const auto before = facets_of(scene, end.faces[0]);
@@ -80,15 +79,13 @@ EndIndex::EndIndex(const Scene& scene, const Skeleton& skeleton, const Request& 
         std::vector<Ends> found;
         const std::size_t from = batch * kArcsAtOnce;
         for (std::size_t i = from; i < std::min(count, from + kArcsAtOnce); ++i) {
-          found.push_back(i < ev ? lines->ends(skeleton.arcs[i])
-                                 : lines->ends(skeleton.eee_arcs[i - ev]));
+          found.push_back(lines->ends(skeleton.arcs[i]));
         }
         return found;
       },
       [&](std::size_t batch, std::vector<Ends>&& found) {
         for (std::size_t k = 0; k < found.size(); ++k) {
-          const std::size_t i = batch * kArcsAtOnce + k;
-          add(arc_at(i, ev), found[k]);
+          add(static_cast<std::uint32_t>(batch * kArcsAtOnce + k), found[k]);
         }
         return true;
       });
@@ -117,7 +114,8 @@ EndIndex::Pairs EndIndex::grouped(std::vector<Entry>& entries) {
   return out;
 }
 
-std::span<const ArcRef> EndIndex::Pairs::find(std::int32_t a, std::int32_t b) const {
+std::span<const std::uint32_t> EndIndex::Pairs::find(std::int32_t a,
+                                                     std::int32_t b) const {
   const std::uint64_t key = key_of(a, b);
   const auto at = std::lower_bound(keys.begin(), keys.end(), key);
   if (at == keys.end() || *at != key) return {};
@@ -125,20 +123,19 @@ std::span<const ArcRef> EndIndex::Pairs::find(std::int32_t a, std::int32_t b) co
   return {arcs.data() + starts[k], starts[k + 1] - starts[k]};
 }
 
-std::span<const ArcRef> EndIndex::seen_from(std::int32_t facet) const {
+std::span<const std::uint32_t> EndIndex::seen_from(std::int32_t facet) const {
   return facets_.find(kOutside, facet);
 }
 
-std::span<const EndIndex::Piece> EndIndex::pieces(const ArcRef& arc) const {
-  const std::size_t i = number(arc);
-  return {pieces_.data() + piece_starts_[i], piece_starts_[i + 1] - piece_starts_[i]};
+std::span<const EndIndex::Piece> EndIndex::pieces(std::uint32_t arc) const {
+  return {pieces_.data() + piece_starts_[arc],
+          piece_starts_[arc + 1] - piece_starts_[arc]};
 }
 
-double EndIndex::end_of(const ArcRef& arc, std::size_t piece) const {
+double EndIndex::end_of(std::uint32_t arc, std::size_t piece) const {
   const auto all = pieces(arc);
   if (piece + 1 < all.size()) return all[piece + 1].from;
-  return arc.kind == ArcKind::EV ? skeleton_.arcs[arc.id].range[1]
-                                 : skeleton_.eee_arcs[arc.id].range[1];
+  return skeleton_.arcs[arc].range[1];
 }
 
 std::size_t EndIndex::bytes() const {
@@ -147,7 +144,7 @@ std::size_t EndIndex::bytes() const {
   for (const Pairs* pairs : {&facet_pairs_, &object_pairs_, &facets_}) {
     sum += pairs->keys.capacity() * sizeof(std::uint64_t) +
            pairs->starts.capacity() * sizeof(std::uint32_t) +
-           pairs->arcs.capacity() * sizeof(ArcRef);
+           pairs->arcs.capacity() * sizeof(std::uint32_t);
   }
   return sum;
 }

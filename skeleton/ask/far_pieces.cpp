@@ -322,11 +322,11 @@ class EvFamily {
   EvFamily(const Silhouettes& g, const SkeletonArc& arc)
       : g_(g),
         scene_(g.scene()),
-        ridge_(g.ridges()[g.ridge_of_edge(arc.edge)]),
-        vertex_(arc.vertex),
-        v_(scene_.point(arc.vertex)),
-        e0_(scene_.point(scene_.edges()[arc.edge].points[0])),
-        e1_(scene_.point(scene_.edges()[arc.edge].points[1])),
+        ridge_(g.ridges()[g.ridge_of_edge(arc.edge())]),
+        vertex_(arc.vertex()),
+        v_(scene_.point(arc.vertex())),
+        e0_(scene_.point(scene_.edges()[arc.edge()].points[0])),
+        e1_(scene_.point(scene_.edges()[arc.edge()].points[1])),
         plane_({v_, e0_, e1_}) {}
 
   [[nodiscard]] Sign compare(const Cut& a, const Cut& b) const {
@@ -434,16 +434,16 @@ class EeeFamily {
  public:
   using CutType = CurveCut;
 
-  EeeFamily(const Silhouettes& g, const Carriers& carriers, const EeeArc& arc)
+  EeeFamily(const Silhouettes& g, const Carriers& carriers, const SkeletonArc& arc)
       : g_(g),
         scene_(g.scene()),
         carriers_(carriers),
         range_(arc.range),
-        pair_{&scene_, points_of(arc.edges[0]), points_of(arc.edges[2])},
-        middle_(carriers.of_ridge[g.ridge_of_edge(arc.edges[1])]),
+        pair_{&scene_, points_of(arc.edges()[0]), points_of(arc.edges()[2])},
+        middle_(carriers.of_ridge[g.ridge_of_edge(arc.edges()[1])]),
         curve_(pair_, carriers.all, middle_, pair_.form(carriers.all[middle_])) {
     for (int i = 0; i < 3; ++i) {
-      ridges_[i] = &g.ridges()[g.ridge_of_edge(arc.edges[i])];
+      ridges_[i] = &g.ridges()[g.ridge_of_edge(arc.edges()[i])];
     }
     // Where not on the arc no part is looked for.
     from_.lo = from_.hi = std::max(0.0, range_[0] - 2 * kRangeError);
@@ -738,15 +738,19 @@ bool add_beyond(const Silhouettes& g, const Chains& chains,
 }  // namespace
 
 std::optional<std::vector<FarPiece>> FarPieces::of(const SkeletonArc& arc) const {
-  const Star& star = g_.stars()[g_.star_of_point(arc.vertex)];
+  return arc.is_ev() ? of_ev(arc) : of_eee(arc);
+}
+
+std::optional<std::vector<FarPiece>> FarPieces::of_ev(const SkeletonArc& arc) const {
+  const Star& star = g_.stars()[g_.star_of_point(arc.vertex())];
   if (star.touched || star.in_plane_only || too_short(arc.range)) return std::nullopt;
-  if (g_.ridges()[g_.ridge_of_edge(arc.edge)].touched) return std::nullopt;
-  if (arc.ends[1] && !same_faces_along(g_.scene(), arc.edge)) return std::nullopt;
+  if (g_.ridges()[g_.ridge_of_edge(arc.edge())].touched) return std::nullopt;
+  if (arc.ends[1] && !same_faces_along(g_.scene(), arc.edge())) return std::nullopt;
   EvFamily family(g_, arc);
   const Scene& scene = g_.scene();
-  const Point& e0 = scene.point(scene.edges()[arc.edge].points[0]);
-  const Point& e1 = scene.point(scene.edges()[arc.edge].points[1]);
-  const Point& v = scene.point(arc.vertex);
+  const Point& e0 = scene.point(scene.edges()[arc.edge()].points[0]);
+  const Point& e1 = scene.point(scene.edges()[arc.edge()].points[1]);
+  const Point& v = scene.point(arc.vertex());
   const auto at = [&](double s) { return Point(e0 + s * (e1 - e0)); };
   Chains chains;
   const int n = steps_for(v, v, at(arc.range[0]), at(arc.range[1]));
@@ -759,10 +763,10 @@ std::optional<std::vector<FarPiece>> FarPieces::of(const SkeletonArc& arc) const
   return Envelope<EvFamily>(g_, crossings_, family, met, arc.range).pieces();
 }
 
-std::optional<std::vector<FarPiece>> FarPieces::of(const EeeArc& arc) const {
+std::optional<std::vector<FarPiece>> FarPieces::of_eee(const SkeletonArc& arc) const {
   if (too_short(arc.range)) return std::nullopt;
   for (int wing = 0; wing < 2; ++wing) {
-    if (arc.ends[wing] && !same_faces_along(g_.scene(), arc.edges[2 * wing])) {
+    if (arc.ends[wing] && !same_faces_along(g_.scene(), arc.edges()[2 * wing])) {
       return std::nullopt;
     }
   }
@@ -780,19 +784,15 @@ std::optional<std::vector<FarPiece>> FarPieces::of(const EeeArc& arc) const {
 }
 
 std::array<std::vector<int>, 2> FarPieces::end_faces(const SkeletonArc& arc) const {
+  const bool ev = arc.is_ev();
   std::array<std::vector<int>, 2> faces;
-  if (arc.ends[0]) {
-    const auto at = g_.scene().faces_at(arc.vertex);
+  if (ev && arc.ends[0]) {
+    const auto at = g_.scene().faces_at(arc.vertex());
     faces[0].assign(at.begin(), at.end());
   }
-  if (arc.ends[1]) faces[1] = faces_at_edge(g_.scene(), arc.edge);
-  return faces;
-}
-
-std::array<std::vector<int>, 2> FarPieces::end_faces(const EeeArc& arc) const {
-  std::array<std::vector<int>, 2> faces;
-  for (int wing = 0; wing < 2; ++wing) {
-    if (arc.ends[wing]) faces[wing] = faces_at_edge(g_.scene(), arc.edges[2 * wing]);
+  if (!ev && arc.ends[0]) faces[0] = faces_at_edge(g_.scene(), arc.edges()[0]);
+  if (arc.ends[1]) {
+    faces[1] = faces_at_edge(g_.scene(), ev ? arc.edge() : arc.edges()[2]);
   }
   return faces;
 }
@@ -819,7 +819,7 @@ void FarPieces::add_crossing_stops(const Family& family, std::span<const int> fa
                              });
 }
 
-std::vector<double> FarPieces::stops(const EeeArc& arc) const {
+std::vector<double> FarPieces::stops(const SkeletonArc& arc) const {
   EeeFamily family(g_, carriers_, arc);
   std::vector<int> faces;
   if (family.prepare()) {

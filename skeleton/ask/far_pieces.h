@@ -51,18 +51,18 @@ class FarPieces {
   /// or two faces are met in one point or cross each other, or where the faces at an end
   /// contact change along the arc: then the contacts have to be asked.
   [[nodiscard]] std::optional<std::vector<FarPiece>> of(const SkeletonArc& arc) const;
-  [[nodiscard]] std::optional<std::vector<FarPiece>> of(const EeeArc& arc) const;
 
   /// The faces at the first, at the last contact, ascending, where it is an end contact;
   /// empty where it is none.  Requires that of() has an answer.
   [[nodiscard]] std::array<std::vector<int>, 2> end_faces(const SkeletonArc& arc) const;
-  [[nodiscard]] std::array<std::vector<int>, 2> end_faces(const EeeArc& arc) const;
 
-  /// All parameters inside an arc's range where its far ends can change, in order,
+  /// All parameters inside an EEE arc's range where its far ends can change, in order,
   /// whatever the position; its ends included.
-  [[nodiscard]] std::vector<double> stops(const EeeArc& arc) const;
+  [[nodiscard]] std::vector<double> stops(const SkeletonArc& arc) const;
 
  private:
+  [[nodiscard]] std::optional<std::vector<FarPiece>> of_ev(const SkeletonArc& arc) const;
+  [[nodiscard]] std::optional<std::vector<FarPiece>> of_eee(const SkeletonArc& arc) const;
   template <class Family>
   void add_crossing_stops(const Family& family, std::span<const int> faces,
                           std::vector<double>& out) const;

@@ -11,12 +11,12 @@ LineThrough line_of(const Scene& scene, int edge) {
 }  // namespace
 
 std::optional<Swath> swath_of(const Scene& scene, const SkeletonArc& arc) {
-  return Swath::through(scene.point(arc.vertex), line_of(scene, arc.edge));
-}
-
-std::optional<Swath> swath_of(const Scene& scene, const EeeArc& arc) {
-  return Swath::through(line_of(scene, arc.edges[0]), line_of(scene, arc.edges[1]),
-                        line_of(scene, arc.edges[2]));
+  if (arc.is_ev()) {
+    return Swath::through(scene.point(arc.vertex()), line_of(scene, arc.edge()));
+  }
+  const auto& [first, middle, last] = arc.edges();
+  return Swath::through(line_of(scene, first), line_of(scene, middle),
+                        line_of(scene, last));
 }
 
 }  // namespace sightline

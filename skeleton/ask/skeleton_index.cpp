@@ -28,47 +28,33 @@ std::string name(NodeKind kind) {
 
 }  // namespace
 
-std::vector<ArcRef> all_arcs(const Skeleton& skeleton) {
-  const std::size_t ev = skeleton.arcs.size();
-  std::vector<ArcRef> arcs(ev + skeleton.eee_arcs.size());
-  for (std::size_t i = 0; i < arcs.size(); ++i) arcs[i] = arc_at(i, ev);
-  return arcs;
-}
-
 SkeletonIndex::SkeletonIndex(const Scene& scene, const Skeleton& skeleton)
     : scene_(scene),
       skeleton_(skeleton),
       points_(scene.points().size()),
       edges_(scene.edges().size()),
       facets_(scene.facets().size()) {
-  const auto each_arc = [&](const auto& visit) {
-    for (std::uint32_t i = 0; i < skeleton.arcs.size(); ++i) {
-      visit(ArcRef{ArcKind::EV, i}, skeleton.arcs[i].nodes);
-    }
-    for (std::uint32_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
-      visit(ArcRef{ArcKind::EEE, i}, skeleton.eee_arcs[i].nodes);
-    }
-  };
-  group<ArcRef>(
+  const std::vector<SkeletonArc>& arcs = skeleton.arcs;
+  group<std::uint32_t>(
       skeleton.nodes.size(),
       [&](const auto& add) {
-        each_arc([&](const ArcRef& arc, const std::array<std::uint32_t, 2>& nodes) {
-          for (const std::uint32_t node : nodes) add(node, arc);
-        });
+        for (std::uint32_t i = 0; i < arcs.size(); ++i) {
+          for (const std::uint32_t node : arcs[i].nodes) add(node, i);
+        }
       },
       node_starts_, node_arcs_);
   const std::size_t slots = points_ + edges_ + facets_;
-  group<ArcRef>(
+  group<std::uint32_t>(
       slots,
       [&](const auto& add) {
-        for (std::uint32_t i = 0; i < skeleton.arcs.size(); ++i) {
-          const SkeletonArc& arc = skeleton.arcs[i];
-          add(slot({GeneratorKind::Vertex, arc.vertex}), ArcRef{ArcKind::EV, i});
-          add(slot({GeneratorKind::Edge, arc.edge}), ArcRef{ArcKind::EV, i});
-        }
-        for (std::uint32_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
-          for (const std::int32_t edge : skeleton.eee_arcs[i].edges) {
-            add(slot({GeneratorKind::Edge, edge}), ArcRef{ArcKind::EEE, i});
+        for (std::uint32_t i = 0; i < arcs.size(); ++i) {
+          if (arcs[i].is_ev()) {
+            add(slot({GeneratorKind::Vertex, arcs[i].vertex()}), i);
+            add(slot({GeneratorKind::Edge, arcs[i].edge()}), i);
+          } else {
+            for (const std::int32_t e : arcs[i].edges()) {
+              add(slot({GeneratorKind::Edge, e}), i);
+            }
           }
         }
       },
@@ -97,7 +83,7 @@ std::size_t SkeletonIndex::slot(const Generator& generator) const {
   }
 }
 
-std::span<const ArcRef> SkeletonIndex::arcs_of(const Generator& generator) const {
+std::span<const std::uint32_t> SkeletonIndex::arcs_of(const Generator& generator) const {
   return slice(generator_arcs_, arc_starts_, slot(generator));
 }
 
@@ -112,7 +98,7 @@ std::vector<std::string> SkeletonIndex::check_invariants() const {
     if (!expected) continue;
     int ev = 0;
     int eee = 0;
-    for (const ArcRef& arc : arcs_at(i)) ++(arc.kind == ArcKind::EV ? ev : eee);
+    for (const std::uint32_t a : arcs_at(i)) ++(skeleton_.arcs[a].is_ev() ? ev : eee);
     if (ev == expected->ev && eee == expected->eee) continue;
     wrong.push_back("node " + std::to_string(i) + ", " + name(skeleton_.nodes[i].kind) +
                     (skeleton_.nodes[i].end ? " end" : "") + ": ends " +

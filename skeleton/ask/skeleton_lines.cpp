@@ -126,16 +126,17 @@ struct SkeletonLines::Impl {
   }
 
   // Positions 0 and 1 of an arc's line.
-  [[nodiscard]] std::array<ExactPoint, 2> points(const SkeletonArc& arc, double s) const {
-    return {point(arc.vertex), on_edge(arc.edge, s)};
-  }
-  // On the last edge, where the plane of the point on the first and of the middle edge
-  // crosses it.
-  [[nodiscard]] std::optional<std::array<ExactPoint, 2>> points(const EeeArc& arc,
+  [[nodiscard]] std::optional<std::array<ExactPoint, 2>> points(const SkeletonArc& arc,
                                                                 double s) const {
-    const ExactPoint p = on_edge(arc.edges[0], s);
-    const auto& middle = scene.edges()[arc.edges[1]].points;
-    const auto q = crossing(arc.edges[2], p, point(middle[0]), point(middle[1]));
+    if (arc.is_ev()) {
+      return std::array<ExactPoint, 2>{point(arc.vertex()), on_edge(arc.edge(), s)};
+    }
+    // On the last edge: where the plane of the point on the first one and of the middle
+    // edge crosses it.
+    const auto& [first, second, last] = arc.edges();
+    const ExactPoint p = on_edge(first, s);
+    const auto& middle = scene.edges()[second].points;
+    const auto q = crossing(last, p, point(middle[0]), point(middle[1]));
     if (!q) return std::nullopt;
     return std::array<ExactPoint, 2>{p, *q};
   }
@@ -198,9 +199,9 @@ struct SkeletonLines::Impl {
                      std::deque<Rational>& positions,
                      std::vector<internal::Cut>& cuts) const {
     if (crossings.empty() || off_plane < 0) return;
-    const ExactPoint v = point(arc.vertex);
-    const ExactPoint e0 = point(scene.edges()[arc.edge].points[0]);
-    const ExactPoint e1 = point(scene.edges()[arc.edge].points[1]);
+    const ExactPoint v = point(arc.vertex());
+    const ExactPoint e0 = point(scene.edges()[arc.edge()].points[0]);
+    const ExactPoint e1 = point(scene.edges()[arc.edge()].points[1]);
     const ExactPoint off = point(off_plane);
     const std::size_t known = cuts.size();
     const auto add_towards = [&](const ExactPoint& at) {
@@ -233,12 +234,7 @@ SkeletonLines::SkeletonLines(const Scene& scene, const Request& request)
 SkeletonLines::~SkeletonLines() = default;
 SkeletonLines::SkeletonLines(SkeletonLines&&) noexcept = default;
 
-FreeSegment SkeletonLines::line(const SkeletonArc& arc, double s) const {
-  const auto [v, x] = impl_->points(arc, s);
-  return impl_->line(v, x, arc.ends);
-}
-
-std::optional<FreeSegment> SkeletonLines::line(const EeeArc& arc, double s) const {
+std::optional<FreeSegment> SkeletonLines::line(const SkeletonArc& arc, double s) const {
   const auto at = impl_->points(arc, s);
   if (!at) return std::nullopt;
   return impl_->line((*at)[0], (*at)[1], arc.ends);
@@ -252,12 +248,7 @@ std::array<ExactPosition, 2> positions(const std::array<ExactPoint, 2>& points) 
 
 }  // namespace
 
-std::array<ExactPosition, 2> SkeletonLines::points(const SkeletonArc& arc,
-                                                   double s) const {
-  return positions(impl_->points(arc, s));
-}
-
-std::optional<std::array<ExactPosition, 2>> SkeletonLines::points(const EeeArc& arc,
+std::optional<std::array<ExactPosition, 2>> SkeletonLines::points(const SkeletonArc& arc,
                                                                   double s) const {
   const auto at = impl_->points(arc, s);
   if (!at) return std::nullopt;
@@ -272,10 +263,14 @@ std::optional<std::array<ExactPosition, 2>> SkeletonLines::points(
 }
 
 std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) const {
+  return arc.is_ev() ? ev_pieces(arc) : eee_pieces(arc);
+}
+
+std::vector<SkeletonLines::Piece> SkeletonLines::ev_pieces(const SkeletonArc& arc) const {
   const Scene& scene = impl_->scene;
   const auto& g = impl_->silhouettes;
-  const Edge& edge = scene.edges()[arc.edge];
-  const Point& v = scene.point(arc.vertex);
+  const Edge& edge = scene.edges()[arc.edge()];
+  const Point& v = scene.point(arc.vertex());
   const Point& e0 = scene.point(edge.points[0]);
   const Point& e1 = scene.point(edge.points[1]);
   const PlaneSide plane({v, e0, e1});
@@ -308,7 +303,7 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const SkeletonArc& arc) 
   });
   std::sort(faces.begin(), faces.end());
   std::deque<Rational> positions;
-  auto cuts = critical_cuts(g, g.stars()[g.star_of_point(arc.vertex)], e0, e1, plane,
+  auto cuts = critical_cuts(g, g.stars()[g.star_of_point(arc.vertex())], e0, e1, plane,
                             faces, positions);
   impl_->add_crossings(in_wedge, arc, internal::corner_off(scene, faces, plane),
                        positions, cuts);
@@ -382,7 +377,8 @@ std::vector<SkeletonLines::EndPiece> ends_of(
 
 }  // namespace
 
-std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const EeeArc& arc) const {
+std::vector<SkeletonLines::Piece> SkeletonLines::eee_pieces(
+    const SkeletonArc& arc) const {
   std::vector<double> stops;
   if (const auto found = impl_->far.of(arc)) {
     for (const auto& piece : *found) stops.push_back(piece.range[0]);
@@ -401,11 +397,6 @@ std::vector<SkeletonLines::Piece> SkeletonLines::pieces(const EeeArc& arc) const
 }
 
 std::vector<SkeletonLines::EndPiece> SkeletonLines::ends(const SkeletonArc& arc) const {
-  const auto found = impl_->far.of(arc);
-  return found ? ends_of(*found, impl_->far.end_faces(arc)) : ends_of(pieces(arc));
-}
-
-std::vector<SkeletonLines::EndPiece> SkeletonLines::ends(const EeeArc& arc) const {
   const auto found = impl_->far.of(arc);
   return found ? ends_of(*found, impl_->far.end_faces(arc)) : ends_of(pieces(arc));
 }

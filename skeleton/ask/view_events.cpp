@@ -5,6 +5,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <numeric>
 #include <optional>
 
 #include "linespace/lines/transversals.h"
@@ -117,7 +118,7 @@ struct ViewEvents::Impl {
 
   // The facet that ends the arc's line at s on one side; nullopt where that is not
   // certain.
-  [[nodiscard]] std::optional<std::int32_t> end_facet(const ArcRef& arc,
+  [[nodiscard]] std::optional<std::int32_t> end_facet(std::uint32_t arc,
                                                       const Enclosure& s,
                                                       int side) const {
     const auto pieces = ends.pieces(arc);
@@ -148,8 +149,8 @@ struct ViewEvents::Impl {
 
   void cross_ev(const Path& path, std::uint32_t id, std::vector<Found>& out) const {
     const SkeletonArc& arc = skeleton.arcs[id];
-    const Point& v = scene.point(arc.vertex);
-    const auto& ids = scene.edges()[arc.edge].points;
+    const Point& v = scene.point(arc.vertex());
+    const auto& ids = scene.edges()[arc.edge()].points;
     const Point& e0 = scene.point(ids[0]);
     const Point& e1 = scene.point(ids[1]);
     const auto& [a, b] = path;
@@ -192,7 +193,7 @@ struct ViewEvents::Impl {
   [[nodiscard]] Answer reaches(const Path& path, std::uint32_t id,
                                const PlaneThrough& plane, const Enclosure& s,
                                int side) const {
-    const auto facet = end_facet({ArcKind::EV, id}, s, side);
+    const auto facet = end_facet(id, s, side);
     if (!facet) return Answer::Unknown;
     if (*facet == kOutside) return Answer::Yes;
     const PlaneThrough end = facet_plane(*facet);
@@ -207,8 +208,8 @@ struct ViewEvents::Impl {
 
   [[nodiscard]] Answer reaches_exactly(const Path& path, const SkeletonArc& arc,
                                        int side) const {
-    const auto e = edge(arc.edge);
-    const ExactPoint v = exact_point(scene.point(arc.vertex));
+    const auto e = edge(arc.edge());
+    const ExactPoint v = exact_point(scene.point(arc.vertex()));
     const ExactPoint e0 = exact_point(e[0]);
     const ExactPoint e1 = exact_point(e[1]);
     const ExactPoint a = exact_point(path.a);
@@ -244,13 +245,13 @@ struct ViewEvents::Impl {
   };
 
   void cross_eee(const Path& path, std::uint32_t id, std::vector<Found>& out) const {
-    const EeeArc& arc = skeleton.eee_arcs[id];
-    const auto& first = scene.edges()[arc.edges[0]].points;
-    const auto& last = scene.edges()[arc.edges[2]].points;
+    const SkeletonArc& arc = skeleton.arcs[id];
+    const auto& first = scene.edges()[arc.edges()[0]].points;
+    const auto& last = scene.edges()[arc.edges()[2]].points;
     const internal::OuterPair pair{&scene, {first[0], first[1]}, {last[0], last[1]}};
     const internal::BoundedForm by_path = form_of(pair, path);
     if (one_sign(by_path)) return;
-    const int middle = carriers.of_ridge[silhouettes.ridge_of_edge(arc.edges[1])];
+    const int middle = carriers.of_ridge[silhouettes.ridge_of_edge(arc.edges()[1])];
     const internal::EeeCurve curve(pair, carriers.all, middle,
                                    pair.form(carriers.all[middle]));
     internal::CurveCut all;
@@ -259,9 +260,9 @@ struct ViewEvents::Impl {
     if (curve.misses(all, by_path)) return;
     Triple triple{{}, {}, {arc.ends[0], false, arc.ends[1]}};
     for (int i = 0; i < 3; ++i) {
-      const auto e = edge(arc.edges[i]);
+      const auto e = edge(arc.edges()[i]);
       triple.lines[i] = {e[0], e[1]};
-      triple.ridges[i] = &silhouettes.ridges()[silhouettes.ridge_of_edge(arc.edges[i])];
+      triple.ridges[i] = &silhouettes.ridges()[silhouettes.ridge_of_edge(arc.edges()[i])];
     }
     const auto found =
         transversals(triple.lines[0], triple.lines[1], triple.lines[2], path.line());
@@ -293,7 +294,7 @@ struct ViewEvents::Impl {
 
   void cross_line(const Path& path, std::uint32_t id, const Triple& triple,
                   const ExactLine& line, std::vector<Found>& out) const {
-    const EeeArc& arc = skeleton.eee_arcs[id];
+    const SkeletonArc& arc = skeleton.arcs[id];
     const LineThrough way = path.line();
     if (line.meets(way) != SegmentContact::Interior) return;
     for (const LineThrough& e : triple.lines) {
@@ -329,7 +330,7 @@ struct ViewEvents::Impl {
   [[nodiscard]] Answer reaches(const Path& path, std::uint32_t id, const Triple& triple,
                                const ExactLine& line, const Enclosure& s,
                                int side) const {
-    const auto facet = end_facet({ArcKind::EEE, id}, s, side);
+    const auto facet = end_facet(id, s, side);
     if (!facet) return Answer::Unknown;
     if (*facet == kOutside) return Answer::Yes;
     const PlaneThrough end = facet_plane(*facet);
@@ -478,13 +479,13 @@ struct ViewEvents::Impl {
     return *index;
   }
 
-  void cross_arcs(const Path& path, std::span<const ArcRef> arcs,
+  void cross_arcs(const Path& path, std::span<const std::uint32_t> arcs,
                   std::vector<Found>& out) const {
-    for (const ArcRef& arc : arcs) {
-      if (arc.kind == ArcKind::EV) {
-        cross_ev(path, arc.id, out);
+    for (const std::uint32_t arc : arcs) {
+      if (skeleton.arcs[arc].is_ev()) {
+        cross_ev(path, arc, out);
       } else {
-        cross_eee(path, arc.id, out);
+        cross_eee(path, arc, out);
       }
     }
   }
@@ -522,14 +523,18 @@ ViewEvents::ViewEvents(ViewEvents&&) noexcept = default;
 std::vector<ViewEvent> ViewEvents::crossed(const Point& a, const Point& b) const {
   const Impl::Path path = Impl::path_between(a, b);
   std::vector<Found> found;
-  const auto near = impl_->arc_index().near(a, b);
-  impl_->cross_arcs(path, near ? *near : all_arcs(impl_->skeleton), found);
+  auto near = impl_->arc_index().near(a, b);
+  if (!near) {
+    near.emplace(impl_->skeleton.arcs.size());
+    std::iota(near->begin(), near->end(), 0U);
+  }
+  impl_->cross_arcs(path, *near, found);
   impl_->cross_facets(path, found);
   return Impl::in_order(path, std::move(found));
 }
 
 std::vector<ViewEvent> ViewEvents::crossed(const Point& a, const Point& b,
-                                           std::span<const ArcRef> arcs) const {
+                                           std::span<const std::uint32_t> arcs) const {
   const Impl::Path path = Impl::path_between(a, b);
   std::vector<Found> found;
   impl_->cross_arcs(path, arcs, found);

@@ -60,22 +60,17 @@ double smallest_ratio(const Ends& over, const Ends& under) {
 
 class Family {
  public:
-  Family(const Scene& scene, const Skeleton& skeleton, const Frame& frame,
-         const ArcRef& ref)
-      : scene_(scene), ev_(ref.kind == ArcKind::EV) {
+  Family(const Scene& scene, const Frame& frame, const SkeletonArc& arc)
+      : range(arc.range), scene_(scene), ev_(arc.is_ev()) {
     if (ev_) {
-      const SkeletonArc& arc = skeleton.arcs[ref.id];
-      first_ = {arc.vertex, arc.vertex};
-      last_ = points_of(arc.edge);
-      range = arc.range;
+      first_ = {arc.vertex(), arc.vertex()};
+      last_ = points_of(arc.edge());
     } else {
-      const EeeArc& arc = skeleton.eee_arcs[ref.id];
-      first_ = points_of(arc.edges[0]);
-      last_ = points_of(arc.edges[2]);
-      range = arc.range;
-      const auto middle = points_of(arc.edges[1]);
+      const auto& [first, second, last] = arc.edges();
+      first_ = points_of(first);
+      last_ = points_of(last);
       const BoundedForm form =
-          OuterPair{&scene, first_, last_}.form({middle, arc.edges[1]});
+          OuterPair{&scene, first_, last_}.form({points_of(second), second});
       for (int k = 0; k < 2; ++k) {
         f0_[k] = form.f[k][0];
         f1_[k] = form.f[k][1];
@@ -501,28 +496,15 @@ class Boxes {
 
 // Two arcs of the same generators that are not told apart: their lines are asked
 // together.
-bool beside_another(const Skeleton& skeleton, const ArcRef& ref) {
-  const auto is_near = [](const auto& x, const auto& y) {
-    return x.range[0] <= y.range[1] + kShortestPiece &&
+bool beside_another(const Skeleton& skeleton, std::uint32_t arc) {
+  const auto beside = [](const SkeletonArc& x, const SkeletonArc& y) {
+    return x.kind == y.kind && x.generators == y.generators &&
+           x.range[0] <= y.range[1] + kShortestPiece &&
            y.range[0] <= x.range[1] + kShortestPiece;
   };
-  const auto any = [&](const auto& arcs, const auto& same) {
-    for (const std::int64_t step : {-1, 1}) {
-      const std::int64_t other = std::int64_t{ref.id} + step;
-      if (other < 0 || other >= static_cast<std::int64_t>(arcs.size())) continue;
-      if (same(arcs[ref.id], arcs[other]) && is_near(arcs[ref.id], arcs[other])) {
-        return true;
-      }
-    }
-    return false;
-  };
-  if (ref.kind == ArcKind::EV) {
-    return any(skeleton.arcs, [](const SkeletonArc& x, const SkeletonArc& y) {
-      return x.vertex == y.vertex && x.edge == y.edge;
-    });
-  }
-  return any(skeleton.eee_arcs,
-             [](const EeeArc& x, const EeeArc& y) { return x.edges == y.edges; });
+  const std::vector<SkeletonArc>& arcs = skeleton.arcs;
+  return (arc > 0 && beside(arcs[arc], arcs[arc - 1])) ||
+         (arc + 1 < arcs.size() && beside(arcs[arc], arcs[arc + 1]));
 }
 
 }  // namespace
@@ -535,14 +517,13 @@ Frame::Frame(const Scene& scene) {
 }
 
 void viewing_boxes(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends,
-                   const Frame& frame, const ArcRef& arc, double fine,
+                   const Frame& frame, std::uint32_t arc, double fine,
                    std::vector<ChartBox>& out) {
-  const Family family(scene, skeleton, frame, arc);
+  const Family family(scene, frame, skeleton.arcs[arc]);
   const auto pieces = ends.pieces(arc);
   const bool told =
       !pieces.empty() && ends.bounds_all(arc) && !beside_another(skeleton, arc);
-  const auto& ended = arc.kind == ArcKind::EV ? skeleton.arcs[arc.id].ends
-                                              : skeleton.eee_arcs[arc.id].ends;
+  const std::array<bool, 2>& ended = skeleton.arcs[arc].ends;
   for (int wing = 0; wing < 2; ++wing) {
     if (ended[wing]) continue;  // nobody beyond an end contact sees the arc
     Boxes boxes(family, wing, fine, out);

@@ -51,7 +51,7 @@ struct ChartBox {
 /// meets it.
 inline constexpr double kFineGrain = 1.0 / 128;
 void viewing_boxes(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends,
-                   const Frame& frame, const ArcRef& arc, double fine,
+                   const Frame& frame, std::uint32_t arc, double fine,
                    std::vector<ChartBox>& out);
 
 }  // namespace sightline::internal

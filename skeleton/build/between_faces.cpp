@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <set>
 #include <span>
 
@@ -41,9 +42,12 @@ class Members {
 // What belongs to a part of the skeleton.
 struct Part {
   std::function<bool(int vertex, int edge)> ev;
-  std::function<bool(const EeeArc&)> eee;
+  std::function<bool(const SkeletonArc&)> eee;
   std::function<bool(int facet, int other)> ff;
 
+  [[nodiscard]] bool has(const SkeletonArc& arc) const {
+    return arc.is_ev() ? ev(arc.vertex(), arc.edge()) : eee(arc);
+  }
   /// A line of two facets that both belong to it.
   [[nodiscard]] bool joins_facets(std::span<const Generator> generators) const {
     for (std::size_t i = 0; i < generators.size(); ++i) {
@@ -99,15 +103,10 @@ Skeleton filtered(const Skeleton& whole, const Part& part,
   std::erase_if(out.simplified.arcs, [&](const Simplified::Arc& arc) {
     return !part.ev(arc.vertex, arc.edge);
   });
-  for (const SkeletonArc& arc : whole.arcs) {
-    if (part.ev(arc.vertex, arc.edge)) out.arcs.push_back(arc);
-  }
-  for (const EeeArc& arc : whole.eee_arcs) {
-    if (part.eee(arc)) out.eee_arcs.push_back(arc);
-  }
+  std::ranges::copy_if(whole.arcs, std::back_inserter(out.arcs),
+                       [&](const SkeletonArc& arc) { return part.has(arc); });
   std::vector<char> kept(whole.nodes.size());
   for (const SkeletonArc& arc : out.arcs) kept[arc.nodes[0]] = kept[arc.nodes[1]] = 1;
-  for (const EeeArc& arc : out.eee_arcs) kept[arc.nodes[0]] = kept[arc.nodes[1]] = 1;
   std::vector<std::uint32_t> renamed(whole.nodes.size());
   for (std::size_t n = 0; n < whole.nodes.size(); ++n) {
     const SkeletonNode& node = whole.nodes[n];
@@ -120,9 +119,6 @@ Skeleton filtered(const Skeleton& whole, const Part& part,
     copy_node(whole, node, out);
   }
   for (SkeletonArc& arc : out.arcs) {
-    for (std::uint32_t& n : arc.nodes) n = renamed[n];
-  }
-  for (EeeArc& arc : out.eee_arcs) {
     for (std::uint32_t& n : arc.nodes) n = renamed[n];
   }
   return out;
@@ -157,9 +153,9 @@ Skeleton between_faces(const Scene& scene, const Skeleton& wider,
                     return (a.vertex(vertex) && b.edge(edge)) ||
                            (b.vertex(vertex) && a.edge(edge));
                   },
-                  [&](const EeeArc& arc) {
-                    return (a.edge(arc.edges[0]) && b.edge(arc.edges[2])) ||
-                           (b.edge(arc.edges[0]) && a.edge(arc.edges[2]));
+                  [&](const SkeletonArc& arc) {
+                    return (a.edge(arc.edges()[0]) && b.edge(arc.edges()[2])) ||
+                           (b.edge(arc.edges()[0]) && a.edge(arc.edges()[2]));
                   },
                   [&](int f, int g) {
                     return (a.facet(f) && b.facet(g)) || (b.facet(f) && a.facet(g));

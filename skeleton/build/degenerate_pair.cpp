@@ -199,9 +199,7 @@ bool DegenerateArcs::only_ends(const Cut& a, const Cut& b,
 
 // Adds the arc from begin_ to `end`, with its nodes.
 void DegenerateArcs::end_arc(const Cut& end) {
-  SkeletonArc arc;
-  arc.vertex = star_.point;
-  arc.edge = ridge_.edge;
+  SkeletonArc arc = SkeletonArc::ev(star_.point, ridge_.edge);
   arc.self = self_;
   arc.ends = ends_;
   arc.range = rounded_range(rounded_parameter(scene_, line_, *begin_),

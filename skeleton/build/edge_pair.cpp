@@ -370,7 +370,7 @@ void EdgePairs::add_arc(const Outer& outer, const EeeCurve& curve, int middle,
   const Ridge& between = g_.ridges()[middle];
   const Ridge& last = g_.ridges()[outer.last];
   FoundArc found;
-  found.arc.edges = {first.edge, between.edge, last.edge};
+  found.arc = SkeletonArc::eee({first.edge, between.edge, last.edge});
   found.arc.ends = stretch.ends;
   found.arc.range = rounded_range(curve.rounded(part.from), curve.rounded(part.to));
   found.arc.self = share(first.objects, between.objects) ||

@@ -47,7 +47,7 @@ struct FoundNode {
 };
 
 struct FoundArc {
-  EeeArc arc;  ///< without node numbers
+  SkeletonArc arc;  ///< without node numbers
   std::array<FoundNode, 2> ends;
 };
 

@@ -45,15 +45,15 @@ void add_arcs(std::vector<FoundArc>& arcs, NodeJoiner& nodes, Skeleton& out) {
       2 * arcs.size(),
       [&](std::size_t i) { return std::pair(end(i).kind, generators_of(end(i))); },
       [&](std::size_t i) { arcs[i / 2].arc.nodes[i % 2] = join(end(i), nodes); });
-  make_room(out.eee_arcs, arcs.size());
-  for (const FoundArc& found : arcs) out.eee_arcs.push_back(found.arc);
+  make_room(out.arcs, arcs.size());
+  for (const FoundArc& found : arcs) out.arcs.push_back(found.arc);
 }
 
 // Without the arcs that neither have an edge on the source nor lines that end there.
 void drop_arcs_off_source(const Silhouettes& g, const EeePart& part,
                           const SkeletonLines& lines, std::vector<FoundArc>& arcs) {
   std::erase_if(arcs, [&](const FoundArc& found) {
-    const auto& edges = found.arc.edges;
+    const auto& edges = found.arc.edges();
     if (std::any_of(edges.begin(), edges.end(),
                     [&](int e) { return part.goes_through(g.ridge_of_edge(e)); })) {
       return false;
@@ -86,8 +86,8 @@ void add_eee(const Silhouettes& silhouettes, const SkeletonRequest& request,
             firsts[i], [&] { return deadline.passed(); }, arcs);
         if (lines) drop_arcs_off_source(silhouettes, part, *lines, arcs);
         std::sort(arcs.begin(), arcs.end(), [](const FoundArc& a, const FoundArc& b) {
-          return std::pair(a.arc.edges, a.arc.range) <
-                 std::pair(b.arc.edges, b.arc.range);
+          return std::pair(a.arc.generators, a.arc.range) <
+                 std::pair(b.arc.generators, b.arc.range);
         });
         return arcs;
       },

@@ -49,7 +49,7 @@ class FurtherContacts {
 
  private:
   [[nodiscard]] LineThrough line_of(std::size_t arc) const {
-    const auto& p = scene_.edges()[view_.arcs[arc].edge].points;
+    const auto& p = scene_.edges()[view_.arcs[arc].edge()].points;
     return {scene_.point(p[0]), scene_.point(p[1])};
   }
   [[nodiscard]] bool may_touch_more(const SkeletonNode& node, const LineThrough& edge,

@@ -50,7 +50,7 @@ void VertexView::sort_arcs() {
   std::sort(order.begin(), order.end(), [&](std::uint32_t i, std::uint32_t j) {
     const SkeletonArc& a = arcs[i];
     const SkeletonArc& b = arcs[j];
-    if (a.edge != b.edge) return a.edge < b.edge;
+    if (a.edge() != b.edge()) return a.edge() < b.edge();
     if (a.range[0] != b.range[0]) return a.range[0] < b.range[0];
     return i < j;
   });
@@ -272,10 +272,10 @@ VertexView VertexViewer::finish() {
 void VertexViewer::drop_short_arcs(VertexView& out) {
   std::vector<std::uint8_t> kept;
   for (const SkeletonArc& arc : out.arcs) {
-    const auto& p = scene_.edges()[arc.edge].points;
+    const auto& p = scene_.edges()[arc.edge()].points;
     const double whole = (scene_.point(p[1]) - scene_.point(p[0])).norm();
     kept.push_back((arc.range[1] - arc.range[0]) * whole >= feature_size_);
-    if (kept.back() == 0) out.short_arcs.push_back({arc.vertex, arc.edge, arc.range});
+    if (kept.back() == 0) out.short_arcs.push_back({arc.vertex(), arc.edge(), arc.range});
   }
   out.keep_arcs(kept);
 }
@@ -284,7 +284,7 @@ void VertexViewer::drop_short_arcs(VertexView& out) {
 void VertexViewer::drop_arcs_off_source(VertexView& out) {
   std::vector<std::uint8_t> kept;
   for (const SkeletonArc& arc : out.arcs) {
-    kept.push_back(part_.on_source(star_id_, g_.ridge_of_edge(arc.edge)) ||
+    kept.push_back(part_.on_source(star_id_, g_.ridge_of_edge(arc.edge())) ||
                    any_ends_on(lines_->ends(arc), part_.source_faces));
   }
   out.keep_arcs(kept);
@@ -396,9 +396,7 @@ void VertexViewer::add_arcs(Pair& pair, std::span<const CutInterval> open,
   const bool self = own_objects_ == pair.r->objects && own_objects_.size() == 1;
   for (std::size_t k = 0; k < open.size(); ++k) {
     const CutInterval& i = open[k];
-    SkeletonArc arc;
-    arc.vertex = point_;
-    arc.edge = pair.r->edge;
+    SkeletonArc arc = SkeletonArc::ev(point_, pair.r->edge);
     arc.self = self;
     arc.ends = {!pair.lists.piece_ends.empty() && pair.lists.piece_ends[k] != 0,
                 pair.edge_ends};
@@ -609,16 +607,16 @@ std::optional<std::uint32_t> VertexViewer::end_node(const Pair& pair, const Cut&
 void VertexViewer::add_line_ups(VertexView& out) {
   std::vector<std::array<Point, 2>> edges;
   for (const SkeletonArc& a : out.arcs) {
-    const auto& p = scene_.edges()[a.edge].points;
+    const auto& p = scene_.edges()[a.edge()].points;
     edges.push_back({scene_.point(p[0]), scene_.point(p[1])});
   }
   for (const auto& [i, j] : opposite_edges(at_, edges)) {
     const SkeletonArc a = out.arcs[i];
     const SkeletonArc b = out.arcs[j];
     // With an end contact at the viewpoint, no line goes on.
-    if (b.edge == a.edge || a.ends[0] || b.ends[0]) continue;
-    const Edge& e = scene_.edges()[a.edge];
-    const Edge& f = scene_.edges()[b.edge];
+    if (b.edge() == a.edge() || a.ends[0] || b.ends[0]) continue;
+    const Edge& e = scene_.edges()[a.edge()];
+    const Edge& f = scene_.edges()[b.edge()];
     const auto& [e0, e1] = edges[i];
     const auto& [f0, f1] = edges[j];
     const PlaneSide plane_e({at_, e0, e1});
@@ -636,9 +634,9 @@ void VertexViewer::add_line_ups(VertexView& out) {
     const Cut on_f = line_up_cut({f0, f1}, plane_e, e.points);
     if (!inside_arc({e0, e1}, out.intervals[i], on_e)) continue;
     if (!inside_arc({f0, f1}, out.intervals[j], on_f)) continue;
-    const Generator generators[] = {{GeneratorKind::Edge, a.edge},
+    const Generator generators[] = {{GeneratorKind::Edge, a.edge()},
                                     {GeneratorKind::Vertex, point_},
-                                    {GeneratorKind::Edge, b.edge}};
+                                    {GeneratorKind::Edge, b.edge()}};
     const bool self = a.self || b.self || e.object == f.object;
     const std::uint32_t node = out.add_node(
         NodeKind::EVE, self, false, generators,

@@ -29,8 +29,8 @@ int main() {
 
   const bool blocked = !index.is_free({-1, 0.35, 0.3}, {2, 0.35, 0.3});
   std::printf("%zu objects, %s, %zu arcs\n", scene.objects().size(),
-              blocked ? "blocked" : "free", skeleton.arcs.size());
+              blocked ? "blocked" : "free", skeleton.ev().size());
   const bool as_expected =
-      scene.objects().size() == 2 && blocked && !skeleton.arcs.empty();
+      scene.objects().size() == 2 && blocked && !skeleton.ev().empty();
   return as_expected ? 0 : 1;
 }

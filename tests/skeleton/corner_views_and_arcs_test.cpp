@@ -47,8 +47,8 @@ void compare(const PolygonSoup& soup, bool aligned) {
   request.events = EventMode::Polygon;
   const Skeleton skeleton = build_skeleton(scene, request);
   std::map<std::pair<int, int>, Stretches> arcs, seen;
-  for (const SkeletonArc& arc : skeleton.arcs)
-    arcs[{arc.vertex, arc.edge}].emplace_back(arc.range[0], arc.range[1]);
+  for (const SkeletonArc& arc : skeleton.ev())
+    arcs[{arc.vertex(), arc.edge()}].emplace_back(arc.range[0], arc.range[1]);
   for (const int corner : scene.corners()) {
     const PointView view = index.view(eye_at(scene.point(corner)));
     EXPECT_EQ(view.place, EyePlace::Corner);

@@ -23,7 +23,7 @@ namespace {
 
 std::vector<int> ends_at(const Skeleton& skeleton) {
   std::vector<int> ends(skeleton.nodes.size());
-  for (const EeeArc& arc : skeleton.eee_arcs) {
+  for (const SkeletonArc& arc : skeleton.eee()) {
     for (const std::uint32_t node : arc.nodes) ++ends[node];
   }
   return ends;
@@ -192,12 +192,12 @@ TEST(DegenerateScenes, BarsOnARegulus) {
     const Skeleton skeleton = build_skeleton(scene);
     std::map<std::array<int, 3>, std::vector<double>> arcs;
     std::map<std::uint32_t, int> ends;
-    for (const EeeArc& arc : skeleton.eee_arcs) {
+    for (const SkeletonArc& arc : skeleton.eee()) {
       std::array<int, 3> c{};
-      for (int k = 0; k < 3; ++k) c[k] = ruling(arc.edges[k]);
+      for (int k = 0; k < 3; ++k) c[k] = ruling(arc.edges()[k]);
       if (*std::min_element(c.begin(), c.end()) < 0) continue;
       const double reach = 1 + 0.25 * c[0];
-      const auto& p = scene.edges()[arc.edges[0]].points;
+      const auto& p = scene.edges()[arc.edges()[0]].points;
       const double x0 = scene.point(p[0])[0];
       const double x1 = scene.point(p[1])[0];
       EXPECT_EQ(std::abs(x0), reach);
@@ -294,12 +294,12 @@ TEST(DegenerateScenes, NoArcHasAMiddleEdgeCoplanarWithBothOthers) {
     return orient3d(scene.point(p[0]), scene.point(p[1]), scene.point(q[0]),
                     scene.point(q[1])) == Sign::Zero;
   };
-  EXPECT_GT(skeleton.eee_arcs.size(), 20u);
+  EXPECT_GT(skeleton.eee().size(), 20u);
   std::set<std::pair<std::array<std::int32_t, 3>, double>> known;
-  for (const EeeArc& arc : skeleton.eee_arcs) {
-    EXPECT_FALSE(coplanar(arc.edges[0], arc.edges[1]) &&
-                 coplanar(arc.edges[1], arc.edges[2]));
-    EXPECT_TRUE(known.insert({arc.edges, arc.range[0]}).second) << "twice";
+  for (const SkeletonArc& arc : skeleton.eee()) {
+    EXPECT_FALSE(coplanar(arc.edges()[0], arc.edges()[1]) &&
+                 coplanar(arc.edges()[1], arc.edges()[2]));
+    EXPECT_TRUE(known.insert({arc.edges(), arc.range[0]}).second) << "twice";
   }
 }
 

@@ -21,10 +21,10 @@ void expect_told(const PolygonSoup& soup, EventMode mode) {
   EXPECT_NO_THROW({
     const Skeleton skeleton = build_skeleton(scene, request);
     EXPECT_TRUE(skeleton.complete);
-    for (const SkeletonArc& arc : skeleton.arcs) {
+    for (const SkeletonArc& arc : skeleton.ev()) {
       EXPECT_TRUE(0 <= arc.range[0] && arc.range[0] <= arc.range[1] && arc.range[1] <= 1);
     }
-    for (const EeeArc& arc : skeleton.eee_arcs) {
+    for (const SkeletonArc& arc : skeleton.eee()) {
       EXPECT_TRUE(0 <= arc.range[0] && arc.range[0] <= arc.range[1] && arc.range[1] <= 1);
     }
   });

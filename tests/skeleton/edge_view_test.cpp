@@ -247,15 +247,15 @@ TEST(EdgePieces, ChangeNoEvents) {
     request.part.region = {low, high};
     const Skeleton pieces = build_skeleton(scene, request);
     const Skeleton whole = build_skeleton(larger, request);
-    ASSERT_EQ(pieces.eee_arcs.size(), whole.eee_arcs.size());
-    EXPECT_GT(pieces.eee_arcs.size(), 1000);
-    for (std::size_t i = 0; i < whole.eee_arcs.size(); ++i) {
-      EXPECT_EQ(pieces.eee_arcs[i].edges, whole.eee_arcs[i].edges);
+    ASSERT_EQ(pieces.eee().size(), whole.eee().size());
+    EXPECT_GT(pieces.eee().size(), 1000);
+    for (std::size_t i = 0; i < whole.eee().size(); ++i) {
+      EXPECT_EQ(pieces.eee()[i].generators, whole.eee()[i].generators);
       // Rounded from one of several equal cuts.
       for (int k = 0; k < 2; ++k) {
-        EXPECT_NEAR(pieces.eee_arcs[i].range[k], whole.eee_arcs[i].range[k], 1e-14);
+        EXPECT_NEAR(pieces.eee()[i].range[k], whole.eee()[i].range[k], 1e-14);
       }
-      EXPECT_EQ(pieces.eee_arcs[i].nodes, whole.eee_arcs[i].nodes);
+      EXPECT_EQ(pieces.eee()[i].nodes, whole.eee()[i].nodes);
     }
   }
 }

@@ -55,13 +55,13 @@ TEST(EeeNeighbours, LinesBesideAnArcPierceTheSolidsOnTheirSide) {
     const OcclusionIndex index(scene);
     testing::Random random(seed);
     for (int k = 0; k < 1000 && asked < 20000; ++k) {
-      const EeeArc& arc = skeleton.eee_arcs[random.integer(
-          0, static_cast<int>(skeleton.eee_arcs.size()) - 1)];
+      const SkeletonArc& arc =
+          skeleton.eee()[random.integer(0, static_cast<int>(skeleton.eee().size()) - 1)];
       const double width = arc.range[1] - arc.range[0];
       if (width < 1e-2) continue;  // the shift must not reach past its ends
       const double s = arc.range[0] + random.uniform(0.1, 0.9) * width;
-      const Point p = on_edge(scene, arc.edges[0], s);
-      const Point q = opposite(scene, p, arc.edges[1], arc.edges[2]);
+      const Point p = on_edge(scene, arc.edges()[0], s);
+      const Point q = opposite(scene, p, arc.edges()[1], arc.edges()[2]);
       const Point a = p + kShift * random.direction(),
                   b = q + kShift * random.direction();
       const Point d = (b - a).normalized();
@@ -70,7 +70,7 @@ TEST(EeeNeighbours, LinesBesideAnArcPierceTheSolidsOnTheirSide) {
       int pattern = 0;
       bool clear = true;
       for (int i = 0; i < 3; ++i) {
-        const int edge = arc.edges[i];
+        const int edge = arc.edges()[i];
         const Point g = on_edge(scene, edge, 1) - on_edge(scene, edge, 0);
         const Point n = d.cross(g.normalized());
         const Point from_edge = a - on_edge(scene, edge, 0);
@@ -97,9 +97,9 @@ TEST(EeeNeighbours, LinesBesideAnArcPierceTheSolidsOnTheirSide) {
       if (pierced != expected) {
         ++wrong;
         if (wrong <= 3) {
-          ADD_FAILURE() << "seed " << seed << " arc of edges " << arc.edges[0] << " "
-                        << arc.edges[1] << " " << arc.edges[2] << " at " << s << " in ["
-                        << arc.range[0] << ", " << arc.range[1] << "]";
+          ADD_FAILURE() << "seed " << seed << " arc of edges " << arc.edges()[0] << " "
+                        << arc.edges()[1] << " " << arc.edges()[2] << " at " << s
+                        << " in [" << arc.range[0] << ", " << arc.range[1] << "]";
         }
       }
     }

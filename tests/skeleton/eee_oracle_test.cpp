@@ -59,7 +59,7 @@ TEST(EeeOracle, EveryArcAndNodeInGeneralPosition) {
 /// Number of EEE arcs that end at each node.
 std::vector<int> ends_at(const Skeleton& skeleton) {
   std::vector<int> ends(skeleton.nodes.size());
-  for (const EeeArc& arc : skeleton.eee_arcs) {
+  for (const SkeletonArc& arc : skeleton.eee()) {
     for (const std::uint32_t node : arc.nodes) ++ends[node];
   }
   return ends;
@@ -82,7 +82,7 @@ TEST(EeeOracle, EveryNodeOfLargerScenesEndsTwoArcs) {
       EXPECT_EQ(ends[i], should ? 2 : 0) << testing::node_name(skeleton.nodes[i].kind);
       if (HasFailure()) return;
     }
-    EXPECT_EQ(skeleton.eee_arcs.size(), nodes);
+    EXPECT_EQ(skeleton.eee().size(), nodes);
     EXPECT_GT(nodes, 1000u);
   }
 }
@@ -172,11 +172,11 @@ TEST(EeeOracle, AxesSignsAndPowersOfTwoChangeNothing) {
 TEST(EeeOracle, ThreadsChangeNothing) {
   const Scene scene(testing::eee_scene(5));
   const Skeleton one = eee_skeleton(scene, 1), four = eee_skeleton(scene, 4);
-  ASSERT_EQ(one.eee_arcs.size(), four.eee_arcs.size());
-  for (std::size_t i = 0; i < one.eee_arcs.size(); ++i) {
-    EXPECT_EQ(one.eee_arcs[i].edges, four.eee_arcs[i].edges);
-    EXPECT_EQ(one.eee_arcs[i].range, four.eee_arcs[i].range);
-    EXPECT_EQ(one.eee_arcs[i].nodes, four.eee_arcs[i].nodes);
+  ASSERT_EQ(one.eee().size(), four.eee().size());
+  for (std::size_t i = 0; i < one.eee().size(); ++i) {
+    EXPECT_EQ(one.eee()[i].generators, four.eee()[i].generators);
+    EXPECT_EQ(one.eee()[i].range, four.eee()[i].range);
+    EXPECT_EQ(one.eee()[i].nodes, four.eee()[i].nodes);
   }
 }
 
@@ -186,8 +186,8 @@ TEST(EeeOracle, APartIsThatPartOfTheWhole) {
       testing::random_polytopes(3, 12, {.max_vertices = 8, .density = 0.25}));
   const Skeleton whole = eee_skeleton(scene);
   const auto object = [&](std::int32_t e) { return scene.edges()[e].object; };
-  const auto described = [&](const EeeArc& a) {
-    return std::tuple(a.edges, a.range[0], a.range[1]);
+  const auto described = [&](const SkeletonArc& a) {
+    return std::tuple(a.edges(), a.range[0], a.range[1]);
   };
   SkeletonRequest between;
   between.ev = false;
@@ -199,13 +199,13 @@ TEST(EeeOracle, APartIsThatPartOfTheWhole) {
   const auto in = [](int o, std::initializer_list<int> set) {
     return std::find(set.begin(), set.end(), o) != set.end();
   };
-  for (const EeeArc& a : whole.eee_arcs) {
-    const int first = object(a.edges[0]), last = object(a.edges[2]);
+  for (const SkeletonArc& a : whole.eee()) {
+    const int first = object(a.edges()[0]), last = object(a.edges()[2]);
     if ((in(first, {1, 2}) && in(last, {5, 7})) ||
         (in(last, {1, 2}) && in(first, {5, 7}))) {
       expected[0].push_back(described(a));
     }
-    if (first == 4 || object(a.edges[1]) == 4 || last == 4) {
+    if (first == 4 || object(a.edges()[1]) == 4 || last == 4) {
       expected[1].push_back(described(a));
     }
   }
@@ -214,7 +214,8 @@ TEST(EeeOracle, APartIsThatPartOfTheWhole) {
   int k = 0;
   for (const SkeletonRequest& request : {between, through}) {
     std::vector<std::tuple<std::array<std::int32_t, 3>, double, double>> found;
-    for (const EeeArc& a : build_skeleton(scene, request).eee_arcs) {
+    const Skeleton part = build_skeleton(scene, request);
+    for (const SkeletonArc& a : part.eee()) {
       found.push_back(described(a));
     }
     EXPECT_EQ(found, expected[k++]);

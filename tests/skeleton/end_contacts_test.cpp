@@ -117,12 +117,13 @@ class Lines {
   explicit Lines(const Scene& scene) : scene_(scene) {}
 
   [[nodiscard]] std::array<Vec3, 2> line(const SkeletonArc& arc, double s) const {
-    return {testing::exact(scene_.point(arc.vertex)), at(edge(arc.edge), Rational(s))};
-  }
-  [[nodiscard]] std::array<Vec3, 2> line(const EeeArc& arc, double s) const {
-    const Vec3 p = at(edge(arc.edges[0]), Rational(s));
-    const auto [m0, m1] = edge(arc.edges[1]);
-    const auto last = edge(arc.edges[2]);
+    if (arc.is_ev()) {
+      return {testing::exact(scene_.point(arc.vertex())),
+              at(edge(arc.edge()), Rational(s))};
+    }
+    const Vec3 p = at(edge(arc.edges()[0]), Rational(s));
+    const auto [m0, m1] = edge(arc.edges()[1]);
+    const auto last = edge(arc.edges()[2]);
     const Vec3 n = testing::cross(m0 - p, m1 - p);
     const Rational x = testing::dot(n, last[0] - p);
     const Rational y = testing::dot(n, last[1] - p);
@@ -155,12 +156,7 @@ struct Answers {
   }
   template <class Visit>
   void each_arc(Visit&& visit) const {
-    for (std::uint32_t i = 0; i < skeleton.arcs.size(); ++i) {
-      visit(skeleton.arcs[i], ArcRef{ArcKind::EV, i});
-    }
-    for (std::uint32_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
-      visit(skeleton.eee_arcs[i], ArcRef{ArcKind::EEE, i});
-    }
+    for (std::uint32_t i = 0; i < skeleton.arcs.size(); ++i) visit(skeleton.arcs[i], i);
   }
 };
 
@@ -181,7 +177,7 @@ TEST(EndContacts, PiecesEndWhereLinesEnterASolid) {
     const Lines exact(answers.scene);
     const SkeletonLines lines(answers.scene);
     testing::Random random(seed);
-    answers.each_arc([&](const auto& arc, const ArcRef&) {
+    answers.each_arc([&](const SkeletonArc& arc, std::uint32_t) {
       if (arc.range[1] - arc.range[0] < 1e-6) return;
       const double s = within(arc.range, random);
       const auto pieces = lines.ends(arc);
@@ -219,7 +215,7 @@ TEST(EndContacts, EventsAreToldWhereTheEyeSeesThem) {
     const Lines exact(answers.scene);
     testing::Random random(seed);
     const double size = (answers.scene.bounds()[1] - answers.scene.bounds()[0]).norm();
-    answers.each_arc([&](const auto& arc, const ArcRef& ref) {
+    answers.each_arc([&](const SkeletonArc& arc, std::uint32_t number) {
       if (arc.range[1] - arc.range[0] < 0.02 || !random.one_in(6)) return;
       const auto line = exact.line(arc, within(arc.range, random));
       const int wing = random.integer(0, 1);
@@ -239,8 +235,8 @@ TEST(EndContacts, EventsAreToldWhereTheEyeSeesThem) {
       const Point step = 1e-5 * size * across;
       int told = 0;
       for (const ViewEvent& e : answers.events.crossed(eye - step, eye + step)) {
-        const EventKind kind = ref.kind == ArcKind::EV ? EventKind::EV : EventKind::EEE;
-        told += e.kind == kind && e.id == ref.id && e.side == wing;
+        const EventKind kind = arc.is_ev() ? EventKind::EV : EventKind::EEE;
+        told += e.kind == kind && e.id == number && e.side == wing;
       }
       ++(expected ? seen : hidden);
       if ((told > 0) != expected && ++wrong <= 5) {
@@ -280,11 +276,11 @@ void expect_events_in_front(const PolygonSoup& soup, std::uint64_t seed, int pat
     for (const ViewEvent& e : answers.events.crossed(a, b)) {
       if (e.kind != EventKind::EV) continue;
       const SkeletonArc& arc = answers.skeleton.arcs[e.id];
-      const auto& edge = answers.scene.edges()[arc.edge].points;
+      const auto& edge = answers.scene.edges()[arc.edge()].points;
       const std::array<Vec3, 2> way{testing::exact(a), testing::exact(b)};
       const std::array<Vec3, 2> e01{testing::exact(answers.scene.point(edge[0])),
                                     testing::exact(answers.scene.point(edge[1]))};
-      const Vec3 v = testing::exact(answers.scene.point(arc.vertex));
+      const Vec3 v = testing::exact(answers.scene.point(arc.vertex()));
       const Vec3 eye = meeting(way, v, e01[0], e01[1]);
       const Vec3 on_edge = meeting(e01, v, way[0], way[1]);
       ++count.events;
@@ -333,16 +329,16 @@ TEST(EndContacts, NoEventThroughTheTetrahedronInFront) {
        answers.events.crossed({-25.75, -0.25, -1.0625}, {-24.5, -0.25, -1.25})) {
     if (e.kind == EventKind::F) continue;
     ASSERT_EQ(e.kind, EventKind::EV);
-    EXPECT_FALSE(answers.scene.point(answers.skeleton.arcs[e.id].vertex) ==
+    EXPECT_FALSE(answers.scene.point(answers.skeleton.arcs[e.id].vertex()) ==
                  Point(27, 11, 3));
   }
   // What lies beyond an end contact is what the contact itself is on.
   const SkeletonLines lines(answers.scene);
-  answers.each_arc([&](const auto& arc, const ArcRef& ref) {
+  answers.each_arc([&](const SkeletonArc& arc, std::uint32_t number) {
     for (int wing = 0; wing < 2; ++wing) {
       if (!arc.ends[wing]) continue;
       for (const auto& piece : lines.ends(arc)) EXPECT_FALSE(piece.faces[wing].empty());
-      for (const auto& piece : answers.ends.pieces(ref)) {
+      for (const auto& piece : answers.ends.pieces(number)) {
         EXPECT_NE(piece.facets[wing], kOutside);
       }
     }

@@ -17,7 +17,7 @@
 namespace sightline {
 namespace {
 
-std::vector<ArcRef> copied(std::span<const ArcRef> arcs) {
+std::vector<std::uint32_t> copied(std::span<const std::uint32_t> arcs) {
   return {arcs.begin(), arcs.end()};
 }
 
@@ -34,15 +34,11 @@ class EndIndexTest : public ::testing::Test {
     const auto facet = [&](const std::vector<int>& faces) {
       return faces.empty() ? kOutside : scene_.faces()[faces.front()].facet;
     };
-    const auto visit_all = [&](ArcKind kind, const auto& arcs) {
-      for (std::uint32_t i = 0; i < arcs.size(); ++i) {
-        for (const auto& end : lines.ends(arcs[i])) {
-          visit(ArcRef{kind, i}, end.range, facet(end.faces[0]), facet(end.faces[1]));
-        }
+    for (std::uint32_t i = 0; i < skeleton_.arcs.size(); ++i) {
+      for (const auto& end : lines.ends(skeleton_.arcs[i])) {
+        visit(i, end.range, facet(end.faces[0]), facet(end.faces[1]));
       }
-    };
-    visit_all(ArcKind::EV, skeleton_.arcs);
-    visit_all(ArcKind::EEE, skeleton_.eee_arcs);
+    }
   }
   [[nodiscard]] std::int32_t object(std::int32_t facet) const {
     return facet == kOutside ? kOutside : scene_.facets()[facet].object;
@@ -54,16 +50,17 @@ class EndIndexTest : public ::testing::Test {
 };
 
 TEST_F(EndIndexTest, FindsWhatAPlainSearchFinds) {
-  std::map<std::pair<int, int>, std::set<ArcRef>> facets, objects;
-  std::map<int, std::set<ArcRef>> seen;
-  each_piece([&](const ArcRef& arc, const auto&, std::int32_t a, std::int32_t b) {
+  std::map<std::pair<int, int>, std::set<std::uint32_t>> facets, objects;
+  std::map<int, std::set<std::uint32_t>> seen;
+  each_piece([&](std::uint32_t arc, const auto&, std::int32_t a, std::int32_t b) {
     facets[std::minmax(a, b)].insert(arc);
     objects[std::minmax(object(a), object(b))].insert(arc);
     seen[a].insert(arc);
     seen[b].insert(arc);
   });
-  const auto expect = [](std::span<const ArcRef> found, const std::set<ArcRef>& arcs) {
-    EXPECT_EQ(copied(found), std::vector<ArcRef>(arcs.begin(), arcs.end()));
+  const auto expect = [](std::span<const std::uint32_t> found,
+                         const std::set<std::uint32_t>& arcs) {
+    EXPECT_EQ(copied(found), std::vector<std::uint32_t>(arcs.begin(), arcs.end()));
   };
   const int facet_count = static_cast<int>(scene_.facets().size());
   for (int a = kOutside; a < facet_count; ++a) {
@@ -83,9 +80,9 @@ TEST_F(EndIndexTest, FindsWhatAPlainSearchFinds) {
 }
 
 TEST_F(EndIndexTest, PiecesCoverTheRangeOfTheirArc) {
-  ArcRef last{ArcKind::EV, 0xffffffff};
+  std::uint32_t last = 0xffffffff;
   std::size_t k = 0;
-  each_piece([&](const ArcRef& arc, const std::array<double, 2>& range, std::int32_t a,
+  each_piece([&](std::uint32_t arc, const std::array<double, 2>& range, std::int32_t a,
                  std::int32_t b) {
     k = arc == last ? k + 1 : 0;
     last = arc;
@@ -107,7 +104,7 @@ TEST_F(EndIndexTest, ThreadsAndBudgetDoNotChangeWhatIsThere) {
   none.budget_seconds = 0;
   const EndIndex empty(scene_, skeleton_, none);
   EXPECT_FALSE(empty.complete());
-  EXPECT_TRUE(empty.pieces({ArcKind::EV, 0}).empty());
+  EXPECT_TRUE(empty.pieces(0).empty());
   EXPECT_TRUE(empty.seen_from(3).empty());
   EXPECT_GT(index_.bytes(), empty.bytes());
 }

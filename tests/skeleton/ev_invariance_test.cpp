@@ -217,13 +217,12 @@ TEST(EvInvariance, Threads) {
     four.threads = 4;
     const Skeleton a = testing::build_ev_skeleton(scene, one),
                    b = testing::build_ev_skeleton(scene, four);
-    ASSERT_EQ(a.arcs.size(), b.arcs.size());
+    ASSERT_EQ(a.ev().size(), b.ev().size());
     ASSERT_EQ(a.nodes.size(), b.nodes.size());
-    for (std::size_t i = 0; i < a.arcs.size(); ++i) {
-      ASSERT_EQ(a.arcs[i].vertex, b.arcs[i].vertex);
-      ASSERT_EQ(a.arcs[i].edge, b.arcs[i].edge);
-      ASSERT_EQ(a.arcs[i].range, b.arcs[i].range);
-      ASSERT_EQ(a.arcs[i].nodes, b.arcs[i].nodes);
+    for (std::size_t i = 0; i < a.ev().size(); ++i) {
+      ASSERT_EQ(a.ev()[i].generators, b.ev()[i].generators);
+      ASSERT_EQ(a.ev()[i].range, b.ev()[i].range);
+      ASSERT_EQ(a.ev()[i].nodes, b.ev()[i].nodes);
     }
     for (std::size_t i = 0; i < a.nodes.size(); ++i) {
       ASSERT_EQ(a.nodes[i].kind, b.nodes[i].kind);

@@ -128,8 +128,8 @@ Comparison compare_line_by_line(const PolygonSoup& soup, int samples_per_edge) {
   const Skeleton skeleton = testing::build_ev_skeleton(scene);
   const testing::BoxUnion boxes(soup);
   std::map<std::pair<int, int>, std::vector<std::array<double, 2>>> arcs;
-  for (const SkeletonArc& arc : skeleton.arcs) {
-    arcs[{arc.vertex, arc.edge}].push_back(arc.range);
+  for (const SkeletonArc& arc : skeleton.ev()) {
+    arcs[{arc.vertex(), arc.edge()}].push_back(arc.range);
   }
   testing::Random random(1);
   Comparison result;

@@ -73,16 +73,15 @@ TEST(EvSkeleton, PartsAreThoseOfTheWhole) {
                        [&](int f) { return scene.faces()[f].object == object; });
   };
   std::vector<SkeletonArc> expected;
-  for (const SkeletonArc& a : whole.arcs) {
-    const int object = scene.edges()[a.edge].object;
-    if (on(a.vertex, 2) && (object == 0 || object == 4)) expected.push_back(a);
+  for (const SkeletonArc& a : whole.ev()) {
+    const int object = scene.edges()[a.edge()].object;
+    if (on(a.vertex(), 2) && (object == 0 || object == 4)) expected.push_back(a);
   }
-  ASSERT_EQ(part.arcs.size(), expected.size());
+  ASSERT_EQ(part.ev().size(), expected.size());
   ASSERT_GT(expected.size(), 0U);
   for (std::size_t i = 0; i < expected.size(); ++i) {
-    EXPECT_EQ(part.arcs[i].vertex, expected[i].vertex);
-    EXPECT_EQ(part.arcs[i].edge, expected[i].edge);
-    EXPECT_EQ(part.arcs[i].range, expected[i].range);
+    EXPECT_EQ(part.ev()[i].generators, expected[i].generators);
+    EXPECT_EQ(part.ev()[i].range, expected[i].range);
   }
 }
 
@@ -105,9 +104,9 @@ TEST(SkeletonLines, ContactsAndPiecesOfEveryArc) {
   const Skeleton skeleton = testing::build_ev_skeleton(scene);
   const SkeletonLines lines(scene);
   int pieces_in_all = 0, stopped = 0;
-  for (const SkeletonArc& arc : skeleton.arcs) {
+  for (const SkeletonArc& arc : skeleton.ev()) {
     const double middle = 0.5 * (arc.range[0] + arc.range[1]);
-    const FreeSegment line = lines.line(arc, middle);
+    const FreeSegment line = lines.line(arc, middle).value();
     EXPECT_LT(line.from, 0);
     EXPECT_GT(line.to, 1);
     ASSERT_GE(line.contacts.size(), 2U);
@@ -132,14 +131,14 @@ TEST(SkeletonLines, ContactsAndPiecesOfEveryArc) {
       // The same line asked for on its own.
       const double s =
           pieces[i].range[0] + 0.3 * (pieces[i].range[1] - pieces[i].range[0]);
-      const FreeSegment again = lines.line(arc, s);
+      const FreeSegment again = lines.line(arc, s).value();
       EXPECT_EQ(again.from_faces, pieces[i].line.from_faces);
       EXPECT_EQ(again.to_faces, pieces[i].line.to_faces);
       stopped += again.to_faces.empty() ? 0 : 1;
     }
     pieces_in_all += static_cast<int>(pieces.size());
   }
-  EXPECT_GT(pieces_in_all, static_cast<int>(skeleton.arcs.size()));
+  EXPECT_GT(pieces_in_all, static_cast<int>(skeleton.ev().size()));
   EXPECT_GT(stopped, 0);
 }
 

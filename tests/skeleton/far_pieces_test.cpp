@@ -17,9 +17,6 @@ namespace sightline {
 namespace {
 
 FreeSegment line_at(const SkeletonLines& lines, const SkeletonArc& arc, double s) {
-  return lines.line(arc, s);
-}
-FreeSegment line_at(const SkeletonLines& lines, const EeeArc& arc, double s) {
   return lines.line(arc, s).value();
 }
 
@@ -28,8 +25,7 @@ struct Tally {
 };
 
 // Pieces tile the range, neighbours differ, and `samples` random lines end as told.
-template <class Arc>
-void check_arc(const SkeletonLines& lines, const Arc& arc, int samples,
+void check_arc(const SkeletonLines& lines, const SkeletonArc& arc, int samples,
                testing::Random& random, Tally& tally) {
   constexpr double kTooClose = 0x1p-37;
   if (arc.range[1] - arc.range[0] < 64 * kTooClose) return;
@@ -83,8 +79,8 @@ void check_scene(const Scene& scene, std::uint64_t seed, int samples, int chosen
       check_arc(lines, arcs[i], closely ? chosen_samples : samples, random, tally);
     }
   };
-  check_kind(skeleton.arcs, ev);
-  check_kind(skeleton.eee_arcs, eee);
+  check_kind(skeleton.ev(), ev);
+  check_kind(skeleton.eee(), eee);
 }
 
 TEST(FarPieces, EndWhereExactLinesDo) {
@@ -137,9 +133,9 @@ TEST(FarPieces, AreThoseThatTheContactTestFinds) {
   const Scene scene(testing::random_polytopes(7, 12, {.density = 0.25}));
   const Skeleton skeleton = build_skeleton(scene);
   const SkeletonLines lines(scene);
-  for (std::size_t i = 0; i < skeleton.arcs.size(); i += 5) {
-    const auto expected = lines.pieces(skeleton.arcs[i]);
-    const auto found = lines.ends(skeleton.arcs[i]);
+  for (std::size_t i = 0; i < skeleton.ev().size(); i += 5) {
+    const auto expected = lines.pieces(skeleton.ev()[i]);
+    const auto found = lines.ends(skeleton.ev()[i]);
     ASSERT_EQ(found.size(), expected.size()) << i;
     for (std::size_t k = 0; k < found.size(); ++k) {
       EXPECT_NEAR(found[k].range[0], expected[k].range[0], 1e-11);

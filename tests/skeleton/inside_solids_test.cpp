@@ -36,11 +36,10 @@ bool passes_material(const internal::SolidIndex& solids,
 }
 
 // Arcs of which one of three lines passes material.
-template <class Arc>
 int count_inside(const internal::SolidIndex& solids, const SkeletonLines& lines,
-                 const std::vector<Arc>& arcs) {
+                 const std::vector<SkeletonArc>& arcs) {
   int count = 0;
-  for (const Arc& arc : arcs) {
+  for (const SkeletonArc& arc : arcs) {
     bool inside = false;
     for (const double t : {0.25, 0.5, 0.75}) {
       const double s = arc.range[0] + t * (arc.range[1] - arc.range[0]);
@@ -65,9 +64,8 @@ TEST_P(InsideSolids, NoArcPasses) {
     SkeletonRequest request;
     request.events = events;
     const Skeleton skeleton = build_skeleton(scene, request);
-    EXPECT_FALSE(skeleton.arcs.empty());
+    EXPECT_FALSE(skeleton.ev().empty());
     EXPECT_EQ(count_inside(solids, lines, skeleton.arcs), 0);
-    EXPECT_EQ(count_inside(solids, lines, skeleton.eee_arcs), 0);
   }
 }
 

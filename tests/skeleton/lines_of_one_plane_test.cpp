@@ -29,9 +29,10 @@ int edge_between(const Scene& scene, const Point& p, const Point& q) {
 
 int arcs_with(const Skeleton& skeleton, int a, int b) {
   return static_cast<int>(std::count_if(
-      skeleton.eee_arcs.begin(), skeleton.eee_arcs.end(), [&](const EeeArc& arc) {
+      skeleton.eee().begin(), skeleton.eee().end(), [&](const SkeletonArc& arc) {
         const auto has = [&](int e) {
-          return std::find(arc.edges.begin(), arc.edges.end(), e) != arc.edges.end();
+          return std::find(arc.edges().begin(), arc.edges().end(), e) !=
+                 arc.edges().end();
         };
         return has(a) && has(b);
       }));
@@ -114,10 +115,11 @@ TEST(BuriedStretches, HaveNoArcs) {
       SkeletonRequest request;
       request.events = events;
       const Scene scene(soup);
-      const std::vector<EeeArc> arcs = build_skeleton(scene, request).eee_arcs;
+      const Skeleton skeleton = build_skeleton(scene, request);
+      const std::span<const SkeletonArc> arcs = skeleton.eee();
       EXPECT_GT(arcs.size(), 50u);
-      const auto buried = [&](const EeeArc& arc) {
-        const auto& ends = scene.edges()[arc.edges[0]].points;
+      const auto buried = [&](const SkeletonArc& arc) {
+        const auto& ends = scene.edges()[arc.edges()[0]].points;
         const double z0 = scene.point(ends[0])[2];
         const double z1 = scene.point(ends[1])[2];
         const double z = z0 + 0.5 * (arc.range[0] + arc.range[1]) * (z1 - z0);

@@ -215,17 +215,18 @@ TEST(NodeLines, EndWhereTheArcsBesideThemDo) {
     const auto facet_of = [&](const std::vector<int>& faces) {
       return faces.empty() ? kOutside : scene.faces()[faces.front()].facet;
     };
-    for (std::uint32_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
-      const EeeArc& arc = skeleton.eee_arcs[i];
-      const auto pieces = ends.pieces({ArcKind::EEE, i});
+    for (auto i = static_cast<std::uint32_t>(skeleton.ev_count());
+         i < skeleton.arcs.size(); ++i) {
+      const SkeletonArc& arc = skeleton.arcs[i];
+      const auto pieces = ends.pieces(i);
       for (const int k : {0, 1}) {
         const SkeletonNode& node = skeleton.nodes[arc.nodes[k]];
         if (node.kind != NodeKind::EEEE) continue;
         const auto generators = skeleton.generators(node);
-        const bool same =
-            generators.front().id == arc.edges[0] && generators.back().id == arc.edges[2];
-        const bool turned =
-            generators.front().id == arc.edges[2] && generators.back().id == arc.edges[0];
+        const bool same = generators.front().id == arc.edges()[0] &&
+                          generators.back().id == arc.edges()[2];
+        const bool turned = generators.front().id == arc.edges()[2] &&
+                            generators.back().id == arc.edges()[0];
         if (!same && !turned) continue;
         const auto line = lines.line(skeleton, node);
         ASSERT_TRUE(line.has_value());
@@ -277,18 +278,18 @@ TEST(NodeLines, ExactPointsAreOnLinesThatMeetTheirGenerators) {
       const Vec3 n = testing::cross(line[1] - line[0], point(e[0]) - line[0]);
       return testing::dot(n, point(e[1]) - line[0]) == 0;
     };
-    for (const SkeletonArc& arc : skeleton.arcs) {
-      const auto at = parsed(lines.points(arc, 0.5 * (arc.range[0] + arc.range[1])));
-      EXPECT_EQ(at[0], point(arc.vertex));
-      EXPECT_TRUE(on_edge(at[1], arc.edge));
+    for (const SkeletonArc& arc : skeleton.ev()) {
+      const auto at = parsed(*lines.points(arc, 0.5 * (arc.range[0] + arc.range[1])));
+      EXPECT_EQ(at[0], point(arc.vertex()));
+      EXPECT_TRUE(on_edge(at[1], arc.edge()));
       ++arcs;
     }
-    for (const EeeArc& arc : skeleton.eee_arcs) {
+    for (const SkeletonArc& arc : skeleton.eee()) {
       const auto found = lines.points(arc, 0.5 * (arc.range[0] + arc.range[1]));
       ASSERT_TRUE(found);
       const auto at = parsed(*found);
-      EXPECT_TRUE(on_edge(at[0], arc.edges[0]) && on_edge(at[1], arc.edges[2]));
-      EXPECT_TRUE(meets_edge(at, arc.edges[1]));
+      EXPECT_TRUE(on_edge(at[0], arc.edges()[0]) && on_edge(at[1], arc.edges()[2]));
+      EXPECT_TRUE(meets_edge(at, arc.edges()[1]));
       ++arcs;
     }
     for (const SkeletonNode& node : skeleton.nodes) {

@@ -28,21 +28,21 @@ using ArcKey = std::tuple<std::vector<int>, std::array<double, 2>, EndNode, EndN
 /// The arcs that `ev` and `eee` let through, in their order.
 std::vector<ArcKey> arcs_of(const Skeleton& skeleton,
                             const std::function<bool(const SkeletonArc&)>& ev,
-                            const std::function<bool(const EeeArc&)>& eee) {
+                            const std::function<bool(const SkeletonArc&)>& eee) {
   const auto node = [&](std::uint32_t id) {
     const SkeletonNode& n = skeleton.nodes[id];
     const auto g = skeleton.generators(n);
     return EndNode(n.kind, n.second, {g.begin(), g.end()});
   };
   std::vector<ArcKey> arcs;
-  for (const SkeletonArc& a : skeleton.arcs) {
+  for (const SkeletonArc& a : skeleton.ev()) {
     if (!ev(a)) continue;
-    arcs.emplace_back(std::vector<int>{a.vertex, a.edge}, a.range, node(a.nodes[0]),
+    arcs.emplace_back(std::vector<int>{a.vertex(), a.edge()}, a.range, node(a.nodes[0]),
                       node(a.nodes[1]));
   }
-  for (const EeeArc& a : skeleton.eee_arcs) {
+  for (const SkeletonArc& a : skeleton.eee()) {
     if (!eee(a)) continue;
-    arcs.emplace_back(std::vector<int>(a.edges.begin(), a.edges.end()), a.range,
+    arcs.emplace_back(std::vector<int>(a.edges().begin(), a.edges().end()), a.range,
                       node(a.nodes[0]), node(a.nodes[1]));
   }
   return arcs;
@@ -100,14 +100,15 @@ struct Rule {
       return has(objects, e.object) && ends(e) == wanted;
     });
   }
-  bool operator()(const SkeletonArc& a) const {
-    const auto faces = scene.faces_at(a.vertex);
-    return request.ev && inside(a.vertex) && edge_inside(a.edge) &&
+  bool operator()(const SkeletonArc& a) const { return a.is_ev() ? ev(a) : eee(a); }
+  [[nodiscard]] bool ev(const SkeletonArc& a) const {
+    const auto faces = scene.faces_at(a.vertex());
+    return request.ev && inside(a.vertex()) && edge_inside(a.edge()) &&
            std::any_of(faces.begin(), faces.end(),
                        [&](int f) {
                          return has(request.part.vertex_objects, scene.faces()[f].object);
                        }) &&
-           on(request.part.edge_objects, a.edge) && through(a) && between(a);
+           on(request.part.edge_objects, a.edge()) && through(a) && between(a);
   }
   [[nodiscard]] bool at_vertex(const std::vector<int>& objects, int vertex) const {
     const auto faces = scene.faces_at(vertex);
@@ -116,22 +117,22 @@ struct Rule {
            });
   }
   [[nodiscard]] bool through(const SkeletonArc& a) const {
-    return at_vertex(request.part.through_objects, a.vertex) ||
-           on(request.part.through_objects, a.edge);
+    return at_vertex(request.part.through_objects, a.vertex()) ||
+           on(request.part.through_objects, a.edge());
   }
   [[nodiscard]] bool between(const SkeletonArc& a) const {
     const auto& o = request.part.outer_objects;
-    return (at_vertex(o[0], a.vertex) && on(o[1], a.edge)) ||
-           (at_vertex(o[1], a.vertex) && on(o[0], a.edge));
+    return (at_vertex(o[0], a.vertex()) && on(o[1], a.edge())) ||
+           (at_vertex(o[1], a.vertex()) && on(o[0], a.edge()));
   }
-  bool operator()(const EeeArc& a) const {
+  [[nodiscard]] bool eee(const SkeletonArc& a) const {
     const auto& o = request.part.outer_objects;
     return request.eee &&
-           std::all_of(a.edges.begin(), a.edges.end(),
+           std::all_of(a.edges().begin(), a.edges().end(),
                        [&](int e) { return edge_inside(e); }) &&
-           ((on(o[0], a.edges[0]) && on(o[1], a.edges[2])) ||
-            (on(o[0], a.edges[2]) && on(o[1], a.edges[0]))) &&
-           std::any_of(a.edges.begin(), a.edges.end(),
+           ((on(o[0], a.edges()[0]) && on(o[1], a.edges()[2])) ||
+            (on(o[0], a.edges()[2]) && on(o[1], a.edges()[0]))) &&
+           std::any_of(a.edges().begin(), a.edges().end(),
                        [&](int e) { return on(request.part.through_objects, e); });
   }
 };

@@ -22,19 +22,16 @@ using testing::exact;
 using testing::Rational;
 using testing::Vec3;
 
-using EvValue = std::tuple<int, int, double, double>;
-using EeeValue = std::tuple<std::array<std::int32_t, 3>, double, double>;
+/// Generators and range of an arc.
+using Value = std::tuple<std::array<std::int32_t, 3>, double, double>;
 using FfValue = std::pair<int, int>;
 
-EvValue value_of(const SkeletonArc& a) {
-  return {a.vertex, a.edge, a.range[0], a.range[1]};
-}
-EeeValue value_of(const EeeArc& a) { return {a.edges, a.range[0], a.range[1]}; }
+Value value_of(const SkeletonArc& a) { return {a.generators, a.range[0], a.range[1]}; }
 
 /// What belongs to a part, told in the test's own words.
 struct Rule {
   std::function<bool(const SkeletonArc&)> ev;
-  std::function<bool(const EeeArc&)> eee;
+  std::function<bool(const SkeletonArc&)> eee;
   std::function<bool(int facet, int other)> ff;
 };
 
@@ -53,17 +50,17 @@ class Parts : public ::testing::Test {
   void expect_part(const SkeletonRequest& request, const Rule& rule) {
     const Skeleton part = build_skeleton(scene_, request);
     EXPECT_TRUE(part.complete);
-    std::vector<EvValue> ev, ev_here;
-    for (const SkeletonArc& a : whole_.arcs) {
+    std::vector<Value> ev, ev_here;
+    for (const SkeletonArc& a : whole_.ev()) {
       if (rule.ev(a)) ev.push_back(value_of(a));
     }
-    for (const SkeletonArc& a : part.arcs) ev_here.push_back(value_of(a));
+    for (const SkeletonArc& a : part.ev()) ev_here.push_back(value_of(a));
     EXPECT_TRUE(ev_here == ev) << ev_here.size() << " EV arcs for " << ev.size();
-    std::vector<EeeValue> eee, eee_here;
-    for (const EeeArc& a : whole_.eee_arcs) {
+    std::vector<Value> eee, eee_here;
+    for (const SkeletonArc& a : whole_.eee()) {
       if (rule.eee(a)) eee.push_back(value_of(a));
     }
-    for (const EeeArc& a : part.eee_arcs) eee_here.push_back(value_of(a));
+    for (const SkeletonArc& a : part.eee()) eee_here.push_back(value_of(a));
     EXPECT_TRUE(eee_here == eee) << eee_here.size() << " EEE arcs for " << eee.size();
     std::multiset<FfValue> ff, ff_here;
     const auto facets = [](const Skeleton& s, const SkeletonNode& n) {
@@ -82,8 +79,8 @@ class Parts : public ::testing::Test {
     // A test that sees nothing, or everything, tests nothing.
     EXPECT_GT(ev.size(), 0u);
     EXPECT_GT(eee.size(), 0u);
-    EXPECT_LT(ev.size(), whole_.arcs.size());
-    EXPECT_LT(eee.size(), whole_.eee_arcs.size());
+    EXPECT_LT(ev.size(), whole_.ev().size());
+    EXPECT_LT(eee.size(), whole_.eee().size());
   }
 
   [[nodiscard]] Vec3 at(int p) const { return exact(scene_.point(p)); }
@@ -144,11 +141,12 @@ TEST_F(Parts, NearAPoint) {
     near.push_back(edge_near(static_cast<int>(e)));
   }
   expect_part(request, {[&](const SkeletonArc& a) {
-                          return (scene_.point(a.vertex) - centre).norm() <= radius &&
-                                 near[a.edge];
+                          return (scene_.point(a.vertex()) - centre).norm() <= radius &&
+                                 near[a.edge()];
                         },
-                        [&](const EeeArc& a) {
-                          return near[a.edges[0]] && near[a.edges[1]] && near[a.edges[2]];
+                        [&](const SkeletonArc& a) {
+                          return near[a.edges()[0]] && near[a.edges()[1]] &&
+                                 near[a.edges()[2]];
                         },
                         [&](int f, int g) {
                           const auto here = [&](int e) { return bool(near[e]); };
@@ -164,7 +162,7 @@ TEST(PartsOfBoxes, ABallThatTouchesAnEdge) {
   const auto arcs = [&](double radius) {
     SkeletonRequest request;
     request.part.near = {{4, 0.5, 5}, radius};
-    return build_skeleton(scene, request).arcs.size();
+    return build_skeleton(scene, request).ev_count();
   };
   EXPECT_GT(arcs(5), arcs(std::nextafter(5, 0)));
   EXPECT_EQ(arcs(5), arcs(std::nextafter(5, 6)));
@@ -179,12 +177,12 @@ TEST_F(Parts, BetweenTwoBoxes) {
   request.part.between_boxes = {left, right};
   expect_part(request,
               {[&](const SkeletonArc& a) {
-                 return (vertex_in(a.vertex, left) && edge_in(a.edge, right)) ||
-                        (vertex_in(a.vertex, right) && edge_in(a.edge, left));
+                 return (vertex_in(a.vertex(), left) && edge_in(a.edge(), right)) ||
+                        (vertex_in(a.vertex(), right) && edge_in(a.edge(), left));
                },
-               [&](const EeeArc& a) {
-                 return (edge_in(a.edges[0], left) && edge_in(a.edges[2], right)) ||
-                        (edge_in(a.edges[0], right) && edge_in(a.edges[2], left));
+               [&](const SkeletonArc& a) {
+                 return (edge_in(a.edges()[0], left) && edge_in(a.edges()[2], right)) ||
+                        (edge_in(a.edges()[0], right) && edge_in(a.edges()[2], left));
                },
                [&](int f, int g) {
                  return (facet_in(f, left) && facet_in(g, right)) ||
@@ -210,17 +208,17 @@ TEST_F(Parts, BetweenObjectsThroughOthersInARegion) {
   const auto object = [&](int e) { return scene_.edges()[e].object; };
   expect_part(request,
               {[&](const SkeletonArc& arc) {
-                 const int x = object_of_vertex(arc.vertex), y = object(arc.edge);
+                 const int x = object_of_vertex(arc.vertex()), y = object(arc.edge());
                  return pair(x, y) && (in(source, x) || in(source, y)) &&
-                        vertex_in(arc.vertex, region) && edge_in(arc.edge, region);
+                        vertex_in(arc.vertex(), region) && edge_in(arc.edge(), region);
                },
-               [&](const EeeArc& arc) {
+               [&](const SkeletonArc& arc) {
                  bool through = false, inside = true;
-                 for (const int e : arc.edges) {
+                 for (const int e : arc.edges()) {
                    through |= in(source, object(e));
                    inside &= edge_in(e, region);
                  }
-                 return pair(object(arc.edges[0]), object(arc.edges[2])) && through &&
+                 return pair(object(arc.edges()[0]), object(arc.edges()[2])) && through &&
                         inside;
                },
                [&](int f, int g) {
@@ -242,7 +240,7 @@ TEST_F(Parts, AboveAFeatureSize) {
     const double root = std::sqrt(squared.convert_to<double>());
     if (Rational(root) * Rational(root) == squared) exactly = root;
   }
-  std::set<EvValue> last;
+  std::set<Value> last;
   for (const double size : {exactly > 0 ? exactly : 0.4, 0.5, 0.8}) {
     SCOPED_TRACE(size);
     const auto large = [&](int e) {
@@ -252,7 +250,7 @@ TEST_F(Parts, AboveAFeatureSize) {
       return std::ranges::any_of(scene_.edges_at(p), large);
     };
     const auto extent = [&](const SkeletonArc& a) {
-      const auto [p, q] = ends(a.edge);
+      const auto [p, q] = ends(a.edge());
       return (a.range[1] - a.range[0]) * (scene_.point(q) - scene_.point(p)).norm();
     };
     SkeletonRequest request = everything();
@@ -260,25 +258,25 @@ TEST_F(Parts, AboveAFeatureSize) {
     expect_part(
         request,
         {[&](const SkeletonArc& a) {
-           return large(a.edge) && corner(a.vertex) && extent(a) >= size;
+           return large(a.edge()) && corner(a.vertex()) && extent(a) >= size;
          },
-         [&](const EeeArc& a) {
-           return large(a.edges[0]) && large(a.edges[1]) && large(a.edges[2]);
+         [&](const SkeletonArc& a) {
+           return large(a.edges()[0]) && large(a.edges()[1]) && large(a.edges()[2]);
          },
          [&](int f, int g) { return some_side(f, large) && some_side(g, large); }});
     // Whatever is missing is listed.
     const Skeleton part = build_skeleton(scene_, request);
-    std::set<EvValue> here;
-    for (const SkeletonArc& a : part.arcs) here.insert(value_of(a));
+    std::set<Value> here;
+    for (const SkeletonArc& a : part.ev()) here.insert(value_of(a));
     std::set<int> edges(part.simplified.edges.begin(), part.simplified.edges.end());
     std::set<int> corners(part.simplified.vertices.begin(),
                           part.simplified.vertices.end());
-    std::set<EvValue> shorts;
+    std::set<Value> shorts;
     for (const auto& a : part.simplified.arcs) {
-      shorts.insert({a.vertex, a.edge, a.range[0], a.range[1]});
+      shorts.insert({{a.vertex, a.edge, -1}, a.range[0], a.range[1]});
     }
-    for (const SkeletonArc& a : whole_.arcs) {
-      const bool listed = edges.contains(a.edge) || corners.contains(a.vertex) ||
+    for (const SkeletonArc& a : whole_.ev()) {
+      const bool listed = edges.contains(a.edge()) || corners.contains(a.vertex()) ||
                           shorts.contains(value_of(a));
       EXPECT_NE(listed, here.contains(value_of(a)));
     }
@@ -307,7 +305,7 @@ TEST_F(Parts, FeatureSizeZeroIsEverything) {
   request.part.feature_size = 0;
   const Skeleton all = build_skeleton(scene_, request);
   EXPECT_EQ(all.generator_pool, whole_.generator_pool);
-  EXPECT_EQ(all.arcs.size(), whole_.arcs.size());
+  EXPECT_EQ(all.ev().size(), whole_.ev().size());
   EXPECT_TRUE(all.simplified.edges.empty());
 }
 
@@ -327,9 +325,9 @@ TEST(FeatureSize, SmallObjectsOccludeAndAreListed) {
   const auto small = [&](const Generator& g) {
     return g.kind == GeneratorKind::Edge && with.edges()[g.id].object == 2;
   };
-  for (const SkeletonArc& a : part.arcs) EXPECT_NE(with.edges()[a.edge].object, 2);
+  for (const SkeletonArc& a : part.ev()) EXPECT_NE(with.edges()[a.edge()].object, 2);
   // Arcs of the large ones are cut where the small one is in the way.
-  EXPECT_GT(part.arcs.size(), build_skeleton(without, request).arcs.size());
+  EXPECT_GT(part.ev().size(), build_skeleton(without, request).ev_count());
   EXPECT_TRUE(std::ranges::any_of(part.generator_pool, small));
 }
 
@@ -350,16 +348,16 @@ TEST_F(Parts, ASizeBudgetGivesTheSamePrefix) {
     EXPECT_EQ(one.edges_asked, whole_.edges_asked);
     EXPECT_EQ(one.generator_pool, four.generator_pool);
     ASSERT_EQ(one.arcs.size(), four.arcs.size());
-    ASSERT_EQ(one.eee_arcs.size(), four.eee_arcs.size());
+    ASSERT_EQ(one.ev_count(), four.ev_count());
     // The first that reached it is the last.
     EXPECT_GE(one.bytes(), request.budget_bytes);
-    ASSERT_LE(one.arcs.size(), whole_.arcs.size());
-    for (std::size_t i = 0; i < one.arcs.size(); ++i) {
+    ASSERT_LE(one.ev_count(), whole_.ev_count());
+    for (std::size_t i = 0; i < one.ev_count(); ++i) {
       EXPECT_EQ(value_of(one.arcs[i]), value_of(whole_.arcs[i]));
     }
-    ASSERT_LE(one.eee_arcs.size(), whole_.eee_arcs.size());
-    for (std::size_t i = 0; i < one.eee_arcs.size(); ++i) {
-      EXPECT_EQ(value_of(one.eee_arcs[i]), value_of(whole_.eee_arcs[i]));
+    ASSERT_LE(one.eee().size(), whole_.eee().size());
+    for (std::size_t i = 0; i < one.eee().size(); ++i) {
+      EXPECT_EQ(value_of(one.eee()[i]), value_of(whole_.eee()[i]));
     }
   }
   SkeletonRequest request = everything();

@@ -42,11 +42,12 @@ std::vector<Event> by_arcs(const Scene& scene, const Point& a, const Point& b) {
     PathEvent event{};
     if (e.kind == EventKind::EV) {
       const SkeletonArc& arc = skeleton.arcs[e.id];
-      event = {PathEventKind::EV,
-               {{GeneratorKind::Vertex, arc.vertex}, {GeneratorKind::Edge, arc.edge}}};
+      event = {
+          PathEventKind::EV,
+          {{GeneratorKind::Vertex, arc.vertex()}, {GeneratorKind::Edge, arc.edge()}}};
     } else if (e.kind == EventKind::EEE) {
       event.kind = PathEventKind::EEE;
-      for (const auto edge : skeleton.eee_arcs[e.id].edges) {
+      for (const auto edge : skeleton.arcs[e.id].edges()) {
         event.generators.push_back({GeneratorKind::Edge, edge});
       }
       std::ranges::sort(event.generators);

@@ -40,11 +40,11 @@ double at_last(const Scene& scene, const std::array<std::int32_t, 3>& edges, dou
 
 Ranges ranges_of(const Scene& scene, const Skeleton& skeleton) {
   Ranges ranges;
-  for (const SkeletonArc& a : skeleton.arcs) {
-    ranges[{a.vertex, a.edge}].push_back(a.range);
+  for (const SkeletonArc& a : skeleton.ev()) {
+    ranges[{a.vertex(), a.edge()}].push_back(a.range);
   }
-  for (const EeeArc& a : skeleton.eee_arcs) {
-    const auto& e = a.edges;
+  for (const SkeletonArc& a : skeleton.eee()) {
+    const auto& e = a.edges();
     ranges[{e[0], e[1], e[2]}].push_back(a.range);
     // Told on the other outer edge, too, just inside its ends.
     const double inset = 1e-7 * (a.range[1] - a.range[0]);
@@ -120,12 +120,12 @@ TEST(PerturbedSkeleton, HasEveryArcUpToTheSizeButForSeams) {
           EXPECT_TRUE(seam) << "lost from " << gap[0] << " to " << gap[1];
         }
       };
-      for (const SkeletonArc& a : here.arcs) look(a, {a.vertex, a.edge}, 2);
-      for (const EeeArc& a : here.eee_arcs) {
-        look(a, {a.edges[0], a.edges[1], a.edges[2]}, 3);
+      for (const SkeletonArc& a : here.ev()) look(a, {a.vertex(), a.edge()}, 2);
+      for (const SkeletonArc& a : here.eee()) {
+        look(a, {a.edges()[0], a.edges()[1], a.edges()[2]}, 3);
       }
-      ev += static_cast<int>(here.arcs.size());
-      eee += static_cast<int>(here.eee_arcs.size());
+      ev += static_cast<int>(here.ev_count());
+      eee += static_cast<int>(here.eee().size());
       // The other way: what only the copy has.
       const auto look_back = [&](const Range& range, const std::vector<int>& key) {
         ++copied;
@@ -134,9 +134,9 @@ TEST(PerturbedSkeleton, HasEveryArcUpToTheSizeButForSeams) {
             !gaps(range, at == in_scene.end() ? std::vector<Range>{} : at->second, kOff)
                  .empty();
       };
-      for (const SkeletonArc& a : there.arcs) look_back(a.range, {a.vertex, a.edge});
-      for (const EeeArc& a : there.eee_arcs) {
-        look_back(a.range, {a.edges[0], a.edges[1], a.edges[2]});
+      for (const SkeletonArc& a : there.ev()) look_back(a.range, {a.vertex(), a.edge()});
+      for (const SkeletonArc& a : there.eee()) {
+        look_back(a.range, {a.edges()[0], a.edges()[1], a.edges()[2]});
       }
     }
   }

@@ -117,11 +117,11 @@ TEST(PolygonMode, EvArcsThatGrazeAreThoseOfSolidModeWhereSolidsTouch) {
     const Scene scene(testing::touching_boxes(kind));
     std::set<std::tuple<int, int, double, double>> solid, polygon;
     for (const SkeletonArc& arc : testing::build_ev_skeleton(scene).arcs) {
-      solid.emplace(arc.vertex, arc.edge, arc.range[0], arc.range[1]);
+      solid.emplace(arc.vertex(), arc.edge(), arc.range[0], arc.range[1]);
     }
     for (const SkeletonArc& arc : polygon_skeleton(scene, true, false).arcs) {
       if (arc.ends[0] || arc.ends[1]) continue;
-      polygon.emplace(arc.vertex, arc.edge, arc.range[0], arc.range[1]);
+      polygon.emplace(arc.vertex(), arc.edge(), arc.range[0], arc.range[1]);
     }
     EXPECT_EQ(polygon, solid);
     arcs += solid.size();
@@ -138,8 +138,8 @@ TEST(PolygonMode, ACubeAloneHasNoEvents) {
   // Two contacts on one convex solid are the lines along its own faces: no events.
   const Scene scene(testing::boxes_soup({{{0, 0, 0}, {1, 1, 1}}}));
   const Skeleton skeleton = polygon_skeleton(scene);
-  EXPECT_TRUE(skeleton.arcs.empty());
-  EXPECT_TRUE(skeleton.eee_arcs.empty());
+  EXPECT_TRUE(skeleton.ev().empty());
+  EXPECT_TRUE(skeleton.eee().empty());
   EXPECT_TRUE(skeleton.nodes.empty());
 }
 
@@ -155,10 +155,10 @@ TEST(PolygonMode, ACubeOnASlab) {
   const Skeleton skeleton = polygon_skeleton(scene);
   int feet = 0, walls = 0, from_below = 0;
   std::map<std::string, int> kinds;
-  for (const SkeletonArc& arc : skeleton.arcs) {
+  for (const SkeletonArc& arc : skeleton.ev()) {
     ++kinds[contacts(arc.ends)];
-    const Point& v = scene.point(arc.vertex);
-    const auto& ends = scene.edges()[arc.edge].points;
+    const Point& v = scene.point(arc.vertex());
+    const auto& ends = scene.edges()[arc.edge()].points;
     const Point &e0 = scene.point(ends[0]), &e1 = scene.point(ends[1]);
     const bool corner = std::abs(v[0]) == 2 && v[2] == 0;
     const bool on_cube = std::abs(e0[0]) < 1 && std::abs(e1[0]) < 1;
@@ -177,8 +177,8 @@ TEST(PolygonMode, ACubeOnASlab) {
   EXPECT_EQ(walls, 4);
   EXPECT_EQ(from_below, 8);
   EXPECT_EQ(kinds["end end"], 0);
-  EXPECT_EQ(kinds["graze graze"], static_cast<int>(build_skeleton(scene).arcs.size()));
-  EXPECT_TRUE(skeleton.eee_arcs.empty());
+  EXPECT_EQ(kinds["graze graze"], static_cast<int>(build_skeleton(scene).ev_count()));
+  EXPECT_TRUE(skeleton.eee().empty());
 }
 
 /// An L-shaped solid, y from 0 to 1: floor to z = 1 for x to 2, tower to z = 2 for x
@@ -208,12 +208,12 @@ TEST(PolygonMode, AnEllAlone) {
   const Scene scene(ell());
   ASSERT_EQ(scene.edges().size(), 18u);
   const Skeleton skeleton = polygon_skeleton(scene);
-  for (const SkeletonArc& arc : skeleton.arcs) {
+  for (const SkeletonArc& arc : skeleton.ev()) {
     EXPECT_TRUE(arc.self);
-    EXPECT_FALSE(is_reflex(scene, arc.edge));
+    EXPECT_FALSE(is_reflex(scene, arc.edge()));
     EXPECT_FALSE(arc.ends[0] || arc.ends[1]);
   }
-  EXPECT_EQ(skeleton.arcs.size(), build_skeleton(scene).arcs.size());
+  EXPECT_EQ(skeleton.ev().size(), build_skeleton(scene).ev_count());
 }
 
 // A triangle above the notch, within its two walls' fronts: each of its corners sees the
@@ -229,16 +229,18 @@ TEST(PolygonMode, ATriangleAboveAnEll) {
   soup.vertices.emplace_back(1.61, 0.43, 1.57);
   const Scene scene(soup);
   int valley = 0;
-  for (const SkeletonArc& arc : polygon_skeleton(scene).arcs) {
-    if (!is_reflex(scene, arc.edge)) continue;
+  const Skeleton polygon = polygon_skeleton(scene);
+  for (const SkeletonArc& arc : polygon.ev()) {
+    if (!is_reflex(scene, arc.edge())) continue;
     ++valley;
     EXPECT_EQ(contacts(arc.ends), "graze end");
     EXPECT_EQ(arc.range, (std::array<double, 2>{0, 1}));
     EXPECT_FALSE(arc.self);
   }
   EXPECT_EQ(valley, 3);
-  for (const SkeletonArc& arc : build_skeleton(scene).arcs) {
-    EXPECT_FALSE(is_reflex(scene, arc.edge));
+  const Skeleton solid = build_skeleton(scene);
+  for (const SkeletonArc& arc : solid.ev()) {
+    EXPECT_FALSE(is_reflex(scene, arc.edge()));
   }
 }
 
@@ -257,18 +259,18 @@ TEST(PolygonMode, ASheetAndABox) {
   const Scene scene(soup);
   const Skeleton skeleton = polygon_skeleton(scene);
   int creases = 0;
-  for (const SkeletonArc& arc : skeleton.arcs) {
+  for (const SkeletonArc& arc : skeleton.ev()) {
     EXPECT_FALSE(arc.ends[0]);
     if (!arc.ends[1]) continue;
     ++creases;
-    for (const int p : scene.edges()[arc.edge].points) {
+    for (const int p : scene.edges()[arc.edge()].points) {
       EXPECT_EQ(scene.point(p)[0], 1);
       EXPECT_EQ(scene.point(p)[2], 1);
     }
     EXPECT_EQ(arc.range, (std::array<double, 2>{0, 1}));
   }
   EXPECT_EQ(creases, 3);
-  EXPECT_EQ(skeleton.arcs.size(), build_skeleton(scene).arcs.size() + 3);
+  EXPECT_EQ(skeleton.ev().size(), build_skeleton(scene).ev_count() + 3);
   for (const SkeletonNode& node : skeleton.nodes) EXPECT_FALSE(node.end);
 }
 
@@ -347,28 +349,28 @@ TEST(PolygonMode, FacesBesideRandomArcsDifferAsTheArcSays) {
       return range[0] + random.uniform(0.2, 0.8) * (range[1] - range[0]);
     };
     for (int k = 0; k < 60; ++k) {
-      const auto i = random.integer(0, static_cast<int>(skeleton.arcs.size()) - 1);
-      const SkeletonArc& arc = skeleton.arcs[i];
+      const auto i = random.integer(0, static_cast<int>(skeleton.ev().size()) - 1);
+      const SkeletonArc& arc = skeleton.ev()[i];
       if (!(arc.ends[0] || arc.ends[1]) || arc.range[1] - arc.range[0] < 1e-2) {
         ++skipped;
         continue;
       }
       const double s = parameter(arc.range);
-      const Point& v = scene.point(arc.vertex);
-      const Point x = point_on(arc.edge, s);
+      const Point& v = scene.point(arc.vertex());
+      const Point x = point_on(arc.edge(), s);
       std::vector<int> at_v;
-      for (const int f : scene.faces_at(arc.vertex)) {
+      for (const int f : scene.faces_at(arc.vertex())) {
         at_v.push_back(scene.faces()[f].facet);
       }
       check(v, x, at_v, arc.ends[0], false);
-      check(x, v, at_edge(arc.edge), arc.ends[1], true);
-      const FreeSegment free = lines.line(arc, s);
+      check(x, v, at_edge(arc.edge()), arc.ends[1], true);
+      const FreeSegment free = lines.line(arc, s).value();
       EXPECT_EQ(free.from == 0, arc.ends[0]);
       EXPECT_EQ(free.to == 1, arc.ends[1]);
     }
-    for (int k = 0; k < 150 && !skeleton.eee_arcs.empty(); ++k) {
-      const auto i = random.integer(0, static_cast<int>(skeleton.eee_arcs.size()) - 1);
-      const EeeArc& arc = skeleton.eee_arcs[i];
+    for (int k = 0; k < 150 && !skeleton.eee().empty(); ++k) {
+      const auto i = random.integer(0, static_cast<int>(skeleton.eee().size()) - 1);
+      const SkeletonArc& arc = skeleton.eee()[i];
       if (!(arc.ends[0] || arc.ends[1]) || arc.range[1] - arc.range[0] < 1e-2) {
         ++skipped;
         continue;
@@ -379,14 +381,14 @@ TEST(PolygonMode, FacesBesideRandomArcsDifferAsTheArcSays) {
       EXPECT_EQ(free->from == 0, arc.ends[0]);
       EXPECT_EQ(free->to == 1, arc.ends[1]);
       // The last point, where the plane of the first and the middle edge crosses.
-      const Point p = point_on(arc.edges[0], s);
-      const auto& m = scene.edges()[arc.edges[1]].points;
+      const Point p = point_on(arc.edges()[0], s);
+      const auto& m = scene.edges()[arc.edges()[1]].points;
       const Point n = (scene.point(m[0]) - p).cross(scene.point(m[1]) - p);
-      const auto& l = scene.edges()[arc.edges[2]].points;
+      const auto& l = scene.edges()[arc.edges()[2]].points;
       const double y0 = n.dot(scene.point(l[0]) - p), y1 = n.dot(scene.point(l[1]) - p);
-      const Point q = point_on(arc.edges[2], y0 / (y0 - y1));
-      check(p, q, at_edge(arc.edges[0]), arc.ends[0], true);
-      check(q, p, at_edge(arc.edges[2]), arc.ends[1], true);
+      const Point q = point_on(arc.edges()[2], y0 / (y0 - y1));
+      check(p, q, at_edge(arc.edges()[0]), arc.ends[0], true);
+      check(q, p, at_edge(arc.edges()[2]), arc.ends[1], true);
     }
     if (HasFailure()) break;
   }

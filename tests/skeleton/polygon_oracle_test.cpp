@@ -77,7 +77,7 @@ TEST(PolygonOracle, EveryEvArcAndNodeInGeneralPosition) {
                 "FvE_end"});
 }
 
-TEST(PolygonOracle, EveryEeeArcAndNodeInGeneralPosition) {
+TEST(PolygonOracle, EverySkeletonArcAndNodeInGeneralPosition) {
   compare_with(testing::naive_eee, false, true,
                {"EEE", "EEE_end", "VEE", "VEE_end", "EVE", "EVE_end", "EEEE", "EEEE_end",
                 "FEE", "FEE_end"});

@@ -216,8 +216,8 @@ void compare_ev(const Scene& scene, const GridScene& grid, Compared& sum) {
     return first_edge.try_emplace(scene.edges()[e].points, e).first->second;
   };
   for (int e = 0; e < static_cast<int>(scene.edges().size()); ++e) same(e);
-  for (const SkeletonArc& arc : skeleton.arcs) {
-    arcs[{arc.vertex, same(arc.edge)}].push_back(&arc);
+  for (const SkeletonArc& arc : skeleton.ev()) {
+    arcs[{arc.vertex(), same(arc.edge())}].push_back(&arc);
   }
   for (const int v : scene.corners()) {
     const Vec3 p = testing::exact(scene.point(v));
@@ -299,9 +299,10 @@ void compare_eee(const Scene& scene, const GridScene& grid, Compared& sum) {
   for (int e = 0; e < n; ++e) {
     same[e] = first_edge.try_emplace(scene.edges()[e].points, e).first->second;
   }
-  std::map<std::array<int, 3>, std::vector<const EeeArc*>> arcs;
-  for (const EeeArc& arc : skeleton.eee_arcs) {
-    arcs[{same[arc.edges[0]], same[arc.edges[1]], same[arc.edges[2]]}].push_back(&arc);
+  std::map<std::array<int, 3>, std::vector<const SkeletonArc*>> arcs;
+  for (const SkeletonArc& arc : skeleton.eee()) {
+    arcs[{same[arc.edges()[0]], same[arc.edges()[1]], same[arc.edges()[2]]}].push_back(
+        &arc);
   }
   const auto parameter = [&](int e, const Vec3& x) -> Rational {
     const int k = axis_of(scene, e);
@@ -328,17 +329,17 @@ void compare_eee(const Scene& scene, const GridScene& grid, Compared& sum) {
           if (*free && middle == Met::Graze && first != Met::None && last != Met::None) {
             wanted = told(first, last);
           }
-          const auto look = [&](const EeeArc& arc, const Rational& at, bool turned) {
+          const auto look = [&](const SkeletonArc& arc, const Rational& at, bool turned) {
             if (!inside(arc.range, at)) return;
             const std::string one =
                 turned ? told({arc.ends[1], arc.ends[0]}) : told(arc.ends);
             found = found == "none" ? one : found + ", " + one;
           };
-          for (const EeeArc* arc : arcs[{i, m, j}]) {
-            look(*arc, parameter(arc->edges[0], p), false);
+          for (const SkeletonArc* arc : arcs[{i, m, j}]) {
+            look(*arc, parameter(arc->edges()[0], p), false);
           }
-          for (const EeeArc* arc : arcs[{j, m, i}]) {
-            look(*arc, parameter(arc->edges[0], q), true);
+          for (const SkeletonArc* arc : arcs[{j, m, i}]) {
+            look(*arc, parameter(arc->edges()[0], q), true);
           }
           (wanted == "none"          ? sum.none
            : wanted == "graze graze" ? sum.grazes
@@ -420,11 +421,12 @@ TEST(PolygonTouching, WallsThatShareAnEdge) {
       add_sheets(soup, "sheet square", {squares[k]});
       const Scene scene(soup);
       int whole = 0, ends = 0;
-      for (const SkeletonArc& arc : skeleton_of(scene, EventMode::Polygon).arcs) {
-        const auto& p = scene.edges()[arc.edge].points;
+      const Skeleton polygon = skeleton_of(scene, EventMode::Polygon);
+      for (const SkeletonArc& arc : polygon.ev()) {
+        const auto& p = scene.edges()[arc.edge()].points;
         const Point middle = 0.5 * (scene.point(p[0]) + scene.point(p[1]));
         // Not from the walls' own corners, along them.
-        const bool from_square = std::abs(scene.point(arc.vertex)[2]) == 3;
+        const bool from_square = std::abs(scene.point(arc.vertex())[2]) == 3;
         if (middle != Point(0, 4, 0) || !from_square) continue;
         EXPECT_FALSE(arc.ends[0]);
         ends += arc.ends[1];
@@ -435,8 +437,9 @@ TEST(PolygonTouching, WallsThatShareAnEdge) {
       const bool silhouette = walls.size() == 2 && (k == 1 || k == 2);
       EXPECT_EQ(ends, silhouette ? 0 : seen[k]);
       if (walls.size() == 2) continue;
-      for (const SkeletonArc& arc : skeleton_of(scene, EventMode::Solid).arcs) {
-        const auto& p = scene.edges()[arc.edge].points;
+      const Skeleton solid = skeleton_of(scene, EventMode::Solid);
+      for (const SkeletonArc& arc : solid.ev()) {
+        const auto& p = scene.edges()[arc.edge()].points;
         EXPECT_NE(Point(0.5 * (scene.point(p[0]) + scene.point(p[1]))), Point(0, 4, 0));
       }
     }
@@ -482,10 +485,10 @@ TEST(PolygonTouching, NodesThatGrazeAreThoseOfSolidMode) {
     // A contact of each end node says so, but for degenerate lines that graze everywhere
     // and end only arcs with an end contact.
     std::vector<int> grazing(polygon.nodes.size());
-    for (const SkeletonArc& arc : polygon.arcs) {
+    for (const SkeletonArc& arc : polygon.ev()) {
       for (const auto n : arc.nodes) grazing[n] += !arc.ends[0] && !arc.ends[1];
     }
-    for (const EeeArc& arc : polygon.eee_arcs) {
+    for (const SkeletonArc& arc : polygon.eee()) {
       for (const auto n : arc.nodes) grazing[n] += !arc.ends[0] && !arc.ends[1];
     }
     for (std::size_t n = 0; n < polygon.nodes.size(); ++n) {

@@ -26,36 +26,28 @@ class SkeletonIndexTest : public ::testing::Test {
 
 TEST_F(SkeletonIndexTest, ArcsAtANodeAreThoseThatNameIt) {
   for (std::uint32_t n = 0; n < skeleton_.nodes.size(); n += 7) {
-    std::vector<ArcRef> expected;
+    std::vector<std::uint32_t> expected;
     for (std::uint32_t i = 0; i < skeleton_.arcs.size(); ++i) {
       for (const auto k : skeleton_.arcs[i].nodes) {
-        if (k == n) expected.push_back({ArcKind::EV, i});
-      }
-    }
-    for (std::uint32_t i = 0; i < skeleton_.eee_arcs.size(); ++i) {
-      for (const auto k : skeleton_.eee_arcs[i].nodes) {
-        if (k == n) expected.push_back({ArcKind::EEE, i});
+        if (k == n) expected.push_back(i);
       }
     }
     const auto found = index_.arcs_at(n);
-    EXPECT_EQ(std::vector<ArcRef>(found.begin(), found.end()), expected);
+    EXPECT_EQ(std::vector<std::uint32_t>(found.begin(), found.end()), expected);
   }
 }
 
 TEST_F(SkeletonIndexTest, ArcsAndNodesOfAGenerator) {
   for (int e = 0; e < static_cast<int>(scene_.edges().size()); e += 5) {
-    std::vector<ArcRef> expected;
+    std::vector<std::uint32_t> expected;
     for (std::uint32_t i = 0; i < skeleton_.arcs.size(); ++i) {
-      if (skeleton_.arcs[i].edge == e) expected.push_back({ArcKind::EV, i});
-    }
-    for (std::uint32_t i = 0; i < skeleton_.eee_arcs.size(); ++i) {
-      const auto& edges = skeleton_.eee_arcs[i].edges;
-      if (std::find(edges.begin(), edges.end(), e) != edges.end()) {
-        expected.push_back({ArcKind::EEE, i});
+      const SkeletonArc& arc = skeleton_.arcs[i];
+      if (arc.is_ev() ? arc.edge() == e : std::ranges::count(arc.edges(), e) > 0) {
+        expected.push_back(i);
       }
     }
     const auto found = index_.arcs_of({GeneratorKind::Edge, e});
-    EXPECT_EQ(std::vector<ArcRef>(found.begin(), found.end()), expected);
+    EXPECT_EQ(std::vector<std::uint32_t>(found.begin(), found.end()), expected);
   }
   std::size_t with_facets = 0;
   for (int f = 0; f < static_cast<int>(scene_.facets().size()); ++f) {
@@ -80,8 +72,8 @@ TEST_F(SkeletonIndexTest, EveryNodeIsAsTheCatalogueSays) {
 
 TEST_F(SkeletonIndexTest, AMissingArcIsNamed) {
   Skeleton broken = skeleton_;
-  const EeeArc gone = broken.eee_arcs.back();
-  broken.eee_arcs.pop_back();
+  const SkeletonArc gone = broken.eee().back();
+  broken.arcs.pop_back();
   const auto wrong = SkeletonIndex(scene_, broken).check_invariants();
   ASSERT_EQ(wrong.size(), gone.nodes[0] == gone.nodes[1] ? 1u : 2u);
   const auto smaller = std::min(gone.nodes[0], gone.nodes[1]);

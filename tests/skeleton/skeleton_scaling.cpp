@@ -93,12 +93,12 @@ std::uint64_t hash_of(const Skeleton& skeleton) {
     for (const double x : arc.range) add(std::floor(x * 0x1p28 + 0.317));
     for (const std::uint32_t node : arc.nodes) add(node);
   };
-  for (const SkeletonArc& arc : skeleton.arcs) {
-    add(arc.vertex), add(arc.edge);
+  for (const SkeletonArc& arc : skeleton.ev()) {
+    add(arc.vertex()), add(arc.edge());
     add_arc(arc);
   }
-  for (const EeeArc& arc : skeleton.eee_arcs) {
-    for (const std::int32_t edge : arc.edges) add(edge);
+  for (const SkeletonArc& arc : skeleton.eee()) {
+    for (const std::int32_t edge : arc.edges()) add(edge);
     add_arc(arc);
   }
   for (const SkeletonNode& node : skeleton.nodes) {
@@ -121,7 +121,7 @@ Row measure(const PolygonSoup& soup, const SkeletonRequest& request) {
   const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
   Row row;
   row.processor_seconds = processor_seconds() - processor_before;
-  row.eee_arcs = static_cast<double>(skeleton.eee_arcs.size());
+  row.eee_arcs = static_cast<double>(skeleton.eee().size());
   const StageCounts& signs = skeleton.predicates;
   row.exact_share =
       static_cast<double>(signs.by_exact) /
@@ -131,7 +131,7 @@ Row measure(const PolygonSoup& soup, const SkeletonRequest& request) {
   row.edges = static_cast<double>(scene.edges().size());
   row.polygons = static_cast<double>(soup.polygons.size());
   row.seconds = spent.count();
-  row.arcs = static_cast<double>(skeleton.arcs.size() + skeleton.eee_arcs.size());
+  row.arcs = static_cast<double>(skeleton.ev().size() + skeleton.eee().size());
   for (const SkeletonNode& node : skeleton.nodes) {
     const auto kind = static_cast<std::size_t>(node.kind);
     if (kind < kKinds.size() - 1) ++row.nodes[kind];

@@ -73,10 +73,10 @@ std::vector<Arc> ev_arcs_off_the_ground(const PolygonSoup& soup) {
   ArcWriter writer(scene);
   std::vector<Arc> arcs;
   for (const SkeletonArc& a : testing::build_ev_skeleton(scene).arcs) {
-    if (scene.point(a.vertex)[2] == 0 && writer.on_the_ground({a.edge})) continue;
-    writer.add_point(scene.point(a.vertex));
-    writer.add_edge(a.edge);
-    writer.add_range(a.edge, a.range);
+    if (scene.point(a.vertex())[2] == 0 && writer.on_the_ground({a.edge()})) continue;
+    writer.add_point(scene.point(a.vertex()));
+    writer.add_edge(a.edge());
+    writer.add_range(a.edge(), a.range);
     arcs.push_back(writer.take());
   }
   std::sort(arcs.begin(), arcs.end());
@@ -87,11 +87,12 @@ std::vector<Arc> ev_arcs_off_the_ground(const PolygonSoup& soup) {
 std::vector<Arc> eee_arcs_off_the_ground(const PolygonSoup& soup) {
   const Scene scene(soup);
   ArcWriter writer(scene);
+  const Skeleton skeleton = build_skeleton(scene, {});
   std::vector<Arc> arcs;
-  for (const EeeArc& a : build_skeleton(scene, {}).eee_arcs) {
-    if (writer.on_the_ground({a.edges[0], a.edges[1], a.edges[2]})) continue;
-    for (const int edge : a.edges) writer.add_edge(edge);
-    writer.add_range(a.edges[0], a.range);
+  for (const SkeletonArc& a : skeleton.eee()) {
+    if (writer.on_the_ground({a.edges()[0], a.edges()[1], a.edges()[2]})) continue;
+    for (const int edge : a.edges()) writer.add_edge(edge);
+    writer.add_range(a.edges()[0], a.range);
     arcs.push_back(writer.take());
   }
   std::sort(arcs.begin(), arcs.end());

@@ -60,10 +60,10 @@ class SwathOfArcs : public testing::Test {
 };
 
 TEST_F(SwathOfArcs, LinesMeetTheMiddleEdgeAndEndAtTheNodes) {
-  ASSERT_GT(skeleton_.eee_arcs.size(), 1000U);
-  for (const EeeArc& arc : skeleton_.eee_arcs) {
+  ASSERT_GT(skeleton_.eee().size(), 1000U);
+  for (const SkeletonArc& arc : skeleton_.eee()) {
     const Swath surface = swath_of(scene_, arc).value();
-    const auto& middle = scene_.edges()[arc.edges[1]].points;
+    const auto& middle = scene_.edges()[arc.edges()[1]].points;
     const Point &m0 = scene_.point(middle[0]), &m1 = scene_.point(middle[1]);
     for (const double t : {0.1, 0.5, 0.9}) {
       const auto [p, q] = surface.line(arc.range[0] + t * (arc.range[1] - arc.range[0]));
@@ -98,8 +98,8 @@ TEST_F(SwathOfArcs, StripKeepsToItsDeviationAndNeedsIt) {
   std::size_t subdivided = 0;
   for (const double share : {1e-2, 1e-3}) {
     const double deviation = share * size_;
-    for (std::size_t i = 0; i < skeleton_.eee_arcs.size(); i += 17) {
-      const EeeArc& arc = skeleton_.eee_arcs[i];
+    for (std::size_t i = 0; i < skeleton_.eee().size(); i += 17) {
+      const SkeletonArc& arc = skeleton_.eee()[i];
       const Swath surface = swath_of(scene_, arc).value();
       const auto rungs = surface.rungs(arc.range, deviation);
       ASSERT_GE(rungs.size(), 2U);
@@ -122,7 +122,7 @@ TEST_F(SwathOfArcs, StripKeepsToItsDeviationAndNeedsIt) {
 
 TEST_F(SwathOfArcs, SubdivisionFollowsTheDeviation) {
   std::size_t coarse = 0, fine = 0;
-  for (const EeeArc& arc : skeleton_.eee_arcs) {
+  for (const SkeletonArc& arc : skeleton_.eee()) {
     const Swath surface = swath_of(scene_, arc).value();
     coarse += surface.rungs(arc.range, 1e-2 * size_).size();
     fine += surface.rungs(arc.range, 1e-4 * size_).size();

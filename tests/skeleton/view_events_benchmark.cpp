@@ -7,10 +7,12 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <numeric>
 #include <vector>
 
 #include "linespace/scene.h"
 #include "skeleton/build.h"
+#include "skeleton/skeleton_index.h"
 #include "skeleton/view_events.h"
 #include "tests/support/generators.h"
 
@@ -30,13 +32,10 @@ struct Data {
   Data() {
     std::size_t pieces = 0;
     for (std::uint32_t i = 0; i < skeleton.arcs.size(); ++i) {
-      pieces += ends.pieces({ArcKind::EV, i}).size();
-    }
-    for (std::uint32_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
-      pieces += ends.pieces({ArcKind::EEE, i}).size();
+      pieces += ends.pieces(i).size();
     }
     std::printf("%zu EV and %zu EEE arcs, %zu pieces; index: %.2f s, %.1f MB\n",
-                skeleton.arcs.size(), skeleton.eee_arcs.size(), pieces, seconds,
+                skeleton.ev().size(), skeleton.eee().size(), pieces, seconds,
                 static_cast<double>(ends.bytes()) * 1e-6);
   }
 };
@@ -71,9 +70,9 @@ BENCHMARK(BM_between_facets);
 void BM_pieces(benchmark::State& state) {
   const auto& d = data();
   std::uint32_t arc = 0;
-  const auto count = static_cast<std::uint32_t>(d.skeleton.arcs.size());
+  const auto count = static_cast<std::uint32_t>(d.skeleton.ev().size());
   for (auto _ : state) {
-    benchmark::DoNotOptimize(d.ends.pieces({ArcKind::EV, arc}));
+    benchmark::DoNotOptimize(d.ends.pieces(arc));
     arc = (arc + 12345) % count;
   }
 }
@@ -140,7 +139,8 @@ BENCHMARK(BM_crossed)->Apply(of_all_lengths);
 void BM_crossed_asking_all(benchmark::State& state) {
   const auto& d = data();
   const auto all = paths(state.range(0));
-  const std::vector<ArcRef> arcs = all_arcs(d.skeleton);
+  std::vector<std::uint32_t> arcs(d.skeleton.arcs.size());
+  std::iota(arcs.begin(), arcs.end(), 0U);
   std::size_t events = 0, i = 0;
   for (auto _ : state) {
     const auto& [a, b] = all[i++ % all.size()];

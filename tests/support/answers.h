@@ -103,7 +103,7 @@ inline std::vector<std::string> event_texts(const Scene& scene, const Skeleton& 
           generators = keys.along(skeleton.arcs[e.id]);
           break;
         case EventKind::EEE:
-          generators = keys.along(skeleton.eee_arcs[e.id]);
+          generators = keys.along(skeleton.arcs[e.id]);
           break;
         case EventKind::F:
           generators = {keys.of({GeneratorKind::Face, static_cast<std::int32_t>(e.id)})};

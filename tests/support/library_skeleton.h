@@ -84,14 +84,13 @@ class CanonicalKeys {
 
   /// Generators in order along the line, end contacts in small letters.
   [[nodiscard]] std::vector<GeneratorKey> along(const SkeletonArc& arc) const {
-    std::vector<GeneratorKey> result = {of({GeneratorKind::Vertex, arc.vertex}),
-                                        of({GeneratorKind::Edge, arc.edge})};
-    mark(result, arc.ends);
-    return result;
-  }
-  [[nodiscard]] std::vector<GeneratorKey> along(const EeeArc& arc) const {
     std::vector<GeneratorKey> result;
-    for (const std::int32_t e : arc.edges) result.push_back(of({GeneratorKind::Edge, e}));
+    if (arc.is_ev()) {
+      result = {of({GeneratorKind::Vertex, arc.vertex()}),
+                of({GeneratorKind::Edge, arc.edge()})};
+    } else {
+      for (const int e : arc.edges()) result.push_back(of({GeneratorKind::Edge, e}));
+    }
     mark(result, arc.ends);
     return result;
   }
@@ -130,15 +129,15 @@ inline CanonicalSkeleton canonical(const Scene& scene, const Skeleton& skeleton,
     by_id.push_back(keys.of(skeleton, node));
   }
   CanonicalSkeleton result;
-  for (const SkeletonArc& arc : skeleton.arcs) {
+  for (const SkeletonArc& arc : skeleton.ev()) {
     ArcKey key = arc_key("EV", keys.along(arc), arc.self,
                          {by_id[arc.nodes[0]], by_id[arc.nodes[1]]});
-    const auto& ends = scene.edges()[arc.edge].points;
+    const auto& ends = scene.edges()[arc.edge()].points;
     if (keys.coordinates(ends[1]) < keys.coordinates(ends[0]))
       std::swap(key.nodes[0], key.nodes[1]);
     result.arcs.push_back(std::move(key));
   }
-  for (const EeeArc& arc : skeleton.eee_arcs) {
+  for (const SkeletonArc& arc : skeleton.eee()) {
     result.arcs.push_back(arc_key("EEE", keys.along(arc), arc.self,
                                   {by_id[arc.nodes[0]], by_id[arc.nodes[1]]}));
   }

@@ -340,7 +340,7 @@ TEST_F(Cli, SkeletonKinds) {
   EXPECT_EQ(eee.at("edges_done"), eee.at("edges_asked"));
 }
 
-TEST_F(Cli, ListOfEeeArcs) {
+TEST_F(Cli, ListOfSkeletonArcs) {
   const json j = answer({"skeleton", kCornell, "--kinds", "EEE", "--list"});
   const json& nodes = j.at("list").at("nodes");
   // A coordinate is a number, or "p/q" where no double is.

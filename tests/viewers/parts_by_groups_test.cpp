@@ -61,7 +61,7 @@ struct Values {
 };
 
 using KeepEv = std::function<bool(const SkeletonArc&)>;
-using KeepEee = std::function<bool(const EeeArc&)>;
+using KeepEee = std::function<bool(const SkeletonArc&)>;
 
 /// The arcs kept, the nodes at their ends, and the EVE nodes both of whose EV arcs are.
 Values values_of(const Skeleton& skeleton, bool with_ev, const KeepEv& keep_ev,
@@ -69,15 +69,16 @@ Values values_of(const Skeleton& skeleton, bool with_ev, const KeepEv& keep_ev,
   Values values;
   std::set<std::uint32_t> nodes;
   std::set<std::pair<int, int>> kept_ev;
-  for (const SkeletonArc& arc : skeleton.arcs) {
+  for (const SkeletonArc& arc : skeleton.ev()) {
     if (!keep_ev(arc)) continue;
-    kept_ev.emplace(arc.vertex, arc.edge);
-    values.ev.push_back(value_of(skeleton, arc, {arc.vertex, arc.edge}));
+    kept_ev.emplace(arc.vertex(), arc.edge());
+    values.ev.push_back(value_of(skeleton, arc, {arc.vertex(), arc.edge()}));
     nodes.insert(arc.nodes.begin(), arc.nodes.end());
   }
-  for (const EeeArc& arc : skeleton.eee_arcs) {
+  for (const SkeletonArc& arc : skeleton.eee()) {
     if (!keep_eee(arc)) continue;
-    values.eee.push_back(value_of(skeleton, arc, {arc.edges.begin(), arc.edges.end()}));
+    values.eee.push_back(
+        value_of(skeleton, arc, {arc.edges().begin(), arc.edges().end()}));
     nodes.insert(arc.nodes.begin(), arc.nodes.end());
   }
   for (std::uint32_t n = 0; with_ev && n < skeleton.nodes.size(); ++n) {
@@ -96,7 +97,7 @@ Values values_of(const Skeleton& skeleton, bool with_ev, const KeepEv& keep_ev,
 Values all_values(const Skeleton& skeleton) {
   Values values = values_of(
       skeleton, false, [](const SkeletonArc&) { return true; },
-      [](const EeeArc&) { return true; });
+      [](const SkeletonArc&) { return true; });
   values.nodes.clear();
   for (const SkeletonNode& node : skeleton.nodes) {
     values.nodes.insert(value_of(skeleton, node));
@@ -161,12 +162,13 @@ void expect_parts_of_the_whole(const Scene& scene, const SkeletonRequest& reques
               values_of(
                   whole, request.ev,
                   [&](const SkeletonArc& arc) {
-                    return between([&](const Owner& o) { return o.vertex(arc.vertex); },
-                                   [&](const Owner& o) { return o.edge(arc.edge); });
+                    return between([&](const Owner& o) { return o.vertex(arc.vertex()); },
+                                   [&](const Owner& o) { return o.edge(arc.edge()); });
                   },
-                  [&](const EeeArc& arc) {
-                    return between([&](const Owner& o) { return o.edge(arc.edges[0]); },
-                                   [&](const Owner& o) { return o.edge(arc.edges[2]); });
+                  [&](const SkeletonArc& arc) {
+                    return between(
+                        [&](const Owner& o) { return o.edge(arc.edges()[0]); },
+                        [&](const Owner& o) { return o.edge(arc.edges()[2]); });
                   }),
               all);
   // One group alone: what has an outer contact on it.
@@ -176,10 +178,10 @@ void expect_parts_of_the_whole(const Scene& scene, const SkeletonRequest& reques
               values_of(
                   whole, request.ev,
                   [&](const SkeletonArc& arc) {
-                    return a.vertex(arc.vertex) || a.edge(arc.edge);
+                    return a.vertex(arc.vertex()) || a.edge(arc.edge());
                   },
-                  [&](const EeeArc& arc) {
-                    return a.edge(arc.edges[0]) || a.edge(arc.edges[2]);
+                  [&](const SkeletonArc& arc) {
+                    return a.edge(arc.edges()[0]) || a.edge(arc.edges()[2]);
                   }),
               all);
   selection = {};
@@ -191,13 +193,13 @@ void expect_parts_of_the_whole(const Scene& scene, const SkeletonRequest& reques
               values_of(
                   whole, request.ev,
                   [&](const SkeletonArc& arc) {
-                    if (a.vertex(arc.vertex) || a.edge(arc.edge)) return true;
+                    if (a.vertex(arc.vertex()) || a.edge(arc.edge())) return true;
                     const bool ends = ends_on(lines, arc, a);
                     ends_there += ends;
                     return ends;
                   },
-                  [&](const EeeArc& arc) {
-                    return std::ranges::any_of(arc.edges,
+                  [&](const SkeletonArc& arc) {
+                    return std::ranges::any_of(arc.edges(),
                                                [&](int e) { return a.edge(e); }) ||
                            ends_on(lines, arc, a);
                   }),
@@ -208,8 +210,8 @@ void expect_parts_of_the_whole(const Scene& scene, const SkeletonRequest& reques
     const std::multiset<NodeValue> seen = all_values(*one).nodes;
     for (const NodeValue& node : seen) EXPECT_EQ(seen.count(node), 1U);
   }
-  EXPECT_EQ(part.eee_arcs.empty(), !request.eee);
-  EXPECT_EQ(part.arcs.empty(), !request.ev);
+  EXPECT_EQ(part.eee().empty(), !request.eee);
+  EXPECT_EQ(part.ev().empty(), !request.ev);
 }
 
 TEST(PartsByGroups, PartsAreThoseOfTheWholeRoom) {
@@ -250,13 +252,14 @@ TEST(PartsByGroups, KindsLeaveOutWhatWasNotAsked) {
   SkeletonRequest request;
   request.ev = false;
   const Skeleton eee = build_selected(room, request, {});
-  EXPECT_TRUE(eee.arcs.empty());
+  EXPECT_TRUE(eee.ev().empty());
   EXPECT_EQ(eee.vertices_asked, 0U);
   std::set<std::uint32_t> ends;
-  for (const EeeArc& arc : eee.eee_arcs) ends.insert(arc.nodes.begin(), arc.nodes.end());
+  for (const SkeletonArc& arc : eee.eee())
+    ends.insert(arc.nodes.begin(), arc.nodes.end());
   EXPECT_EQ(ends.size(), eee.nodes.size());
   const Skeleton both = build_selected(room, {}, {});
-  EXPECT_EQ(all_values(eee).eee.size(), both.eee_arcs.size());
+  EXPECT_EQ(all_values(eee).eee.size(), both.eee().size());
 }
 
 }  // namespace

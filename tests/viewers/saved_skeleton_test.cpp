@@ -121,7 +121,7 @@ TEST_F(SavedSkeleton, IsReadAsItWas) {
   const sightline::Skeleton& kept = stored.skeleton;
   ASSERT_EQ(kept.nodes.size(), built.nodes.size());
   ASSERT_EQ(kept.arcs.size(), built.arcs.size());
-  ASSERT_EQ(kept.eee_arcs.size(), built.eee_arcs.size());
+  ASSERT_EQ(kept.eee().size(), built.eee().size());
   for (std::size_t i = 0; i < kept.arcs.size(); ++i) {
     EXPECT_EQ(kept.arcs[i].range, built.arcs[i].range);
     EXPECT_EQ(kept.arcs[i].nodes, built.arcs[i].nodes);

@@ -313,8 +313,9 @@ void write_vtk_files(Session& session, const SkeletonOptions& options, const Sce
     if (options.extend) {
       lines.emplace(scene, request);
       internal::Stage stage(request, "extending arcs");
-      for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
-        stage.check(static_cast<double>(i) / static_cast<double>(skeleton.arcs.size()));
+      const std::size_t count = skeleton.ev_count();
+      for (std::size_t i = 0; i < count; ++i) {
+        stage.check(static_cast<double>(i) / static_cast<double>(count));
         strips.push_back(ruled_strip(scene, *lines, skeleton, static_cast<int>(i), 9));
       }
     }

@@ -139,7 +139,7 @@ void add_marks(Drawing& drawing, Drawing marks, const ViewOptions& options) {
 /// At most `limit` of the items of these kinds (all if none is named), evenly spread
 /// over those that reach into the box.
 template <typename Item>
-std::vector<int> chosen(const std::vector<Item>& items, std::size_t limit,
+std::vector<int> chosen(std::span<const Item> items, std::size_t limit,
                         const std::vector<std::string>& kinds, const ViewOptions& options,
                         const std::function<void(Drawing&, std::span<const int>)>& draw) {
   std::vector<int> candidates;
@@ -172,7 +172,7 @@ void add_skeleton(Drawing& drawing, const Scene& scene, const Skeleton& skeleton
   };
   const auto draw_eee = [&](Drawing& d, std::span<const int> arcs) {
     for (const int i : arcs) {
-      add_eee_arc(d, scene, skeleton.eee_arcs[i], opacity_of(arcs.size()));
+      add_eee_arc(d, scene, skeleton.eee()[i], opacity_of(arcs.size()));
     }
   };
   const auto draw_nodes = [&](Drawing& d, std::span<const int> nodes) {
@@ -181,9 +181,9 @@ void add_skeleton(Drawing& drawing, const Scene& scene, const Skeleton& skeleton
               static_cast<float>(std::clamp(300 / (crowd + 1), 0.4, 0.9)),
               crowd > 500 ? 1.2F : 1.8F);
   };
-  draw_ev(marks, chosen(skeleton.arcs, 1500, kinds, options, draw_ev));
-  draw_eee(marks, chosen(skeleton.eee_arcs, 1500, kinds, options, draw_eee));
-  draw_nodes(marks, chosen(skeleton.nodes, 4000, kinds, options, draw_nodes));
+  draw_ev(marks, chosen(skeleton.ev(), 1500, kinds, options, draw_ev));
+  draw_eee(marks, chosen(skeleton.eee(), 1500, kinds, options, draw_eee));
+  draw_nodes(marks, chosen(std::span(skeleton.nodes), 4000, kinds, options, draw_nodes));
   add_marks(drawing, std::move(marks), options);
 }
 

@@ -72,8 +72,8 @@ void add_far_ends(Json& element, const Scene& scene, const std::optional<FarEnds
                              {"ends", ends_json(ends->faces)}};
 }
 
-template <typename Arc>
-void add_pieces(Json& j, const Scene& scene, const SkeletonLines& lines, const Arc& arc) {
+void add_pieces(Json& j, const Scene& scene, const SkeletonLines& lines,
+                const SkeletonArc& arc) {
   Json pieces = Json::array();
   for (const SkeletonLines::EndPiece& piece : lines.ends(arc)) {
     pieces.push_back({{"range", piece.range},
@@ -101,15 +101,6 @@ Json positions_json(const std::array<ExactPosition, 2>& points) {
 /// 1; and what lies along it.
 void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
               const SkeletonArc& arc) {
-  const double s = plain_parameter(arc.range);
-  j["parameter"] = s;
-  j["line"] = positions_json(lines.points(arc, s));
-  add_far_ends(j, scene, far_ends(scene, lines, arc, s));
-  add_pieces(j, scene, lines, arc);
-}
-
-void add_line(Json& j, const Scene& scene, const SkeletonLines& lines,
-              const EeeArc& arc) {
   const double s = plain_parameter(arc.range);
   const auto points = lines.points(arc, s);
   j["parameter"] = s;
@@ -169,9 +160,18 @@ NodeKind kind_from(const std::string& name) {
   throw Malformed(fmt::format("unknown kind of node '{}'", name));
 }
 
-/// What arcs of all kinds have.
-template <typename Arc>
-void read_arc(const Json& j, Arc& arc) {
+SkeletonArc arc_from(const Json& j) {
+  SkeletonArc arc;
+  if (j.contains("edges")) {
+    const Json& edges = j.at("edges");
+    const auto id = [&](int i) { return id_from(edges.at(i).at("id")); };
+    arc = SkeletonArc::eee({id(0), id(1), id(2)});
+    arc.ends = {is_end(edges.at(0)), is_end(edges.at(2))};
+  } else {
+    arc =
+        SkeletonArc::ev(id_from(j.at("vertex").at("id")), id_from(j.at("edge").at("id")));
+    arc.ends = {is_end(j.at("vertex")), is_end(j.at("edge"))};
+  }
   arc.self = j.at("kind").get<std::string>().ends_with("_self");
   for (const int i : {0, 1}) {
     arc.range[i] = j.at("range").at(i).get<double>();
@@ -180,6 +180,7 @@ void read_arc(const Json& j, Arc& arc) {
   if (!(0 <= arc.range[0] && arc.range[0] <= arc.range[1] && arc.range[1] <= 1)) {
     throw Malformed(fmt::format("{} is no range", j["range"].dump()));
   }
+  return arc;
 }
 
 Simplified simplified_from(const Json& j) {
@@ -241,23 +242,9 @@ StoredSkeleton skeleton_from(const Json& j) {
     skeleton.nodes.push_back(node);
   }
   for (const Json& a : j.at("list").at("arcs")) {
-    if (a.contains("edges")) {
-      EeeArc arc{};
-      for (const int i : {0, 1, 2}) {
-        arc.edges[i] = id_from(a.at("edges").at(i).at("id"));
-      }
-      arc.ends = {is_end(a.at("edges").at(0)), is_end(a.at("edges").at(2))};
-      read_arc(a, arc);
-      skeleton.eee_arcs.push_back(arc);
-    } else {
-      SkeletonArc arc{};
-      arc.vertex = id_from(a.at("vertex").at("id"));
-      arc.edge = id_from(a.at("edge").at("id"));
-      arc.ends = {is_end(a.at("vertex")), is_end(a.at("edge"))};
-      read_arc(a, arc);
-      skeleton.arcs.push_back(arc);
-    }
+    skeleton.arcs.push_back(arc_from(a));
   }
+  std::ranges::stable_partition(skeleton.arcs, &SkeletonArc::is_ev);
   return stored;
 }
 
@@ -356,18 +343,11 @@ class ListWriter {
     }
   }
   void arcs(internal::Stage& stage) {
-    const std::size_t ev = skeleton_.arcs.size();
-    const std::size_t count = ev + skeleton_.eee_arcs.size();
-    for (std::size_t i = 0; i < ev; ++i) {
+    const std::size_t count = skeleton_.arcs.size();
+    for (std::size_t i = 0; i < count; ++i) {
       tell(stage, i, count);
       Json arc = arc_json(scene_, skeleton_, i);
       if (lines_ != nullptr) add_line(arc, scene_, *lines_, skeleton_.arcs[i]);
-      add(arc);
-    }
-    for (std::size_t i = 0; i < skeleton_.eee_arcs.size(); ++i) {
-      tell(stage, ev + i, count);
-      Json arc = eee_arc_json(scene_, skeleton_, i);
-      if (lines_ != nullptr) add_line(arc, scene_, *lines_, skeleton_.eee_arcs[i]);
       add(arc);
     }
   }
@@ -472,19 +452,16 @@ void check_fits(const StoredSkeleton& stored, const Scene& scene) {
     // A flat side is an edge of a node that is no edge of the scene.
     require(below(g.id, size) || (g.kind == GeneratorKind::Edge && g.id == -1));
   }
-  const auto require_nodes = [&](const auto& arc) {
+  for (const SkeletonArc& arc : stored.skeleton.arcs) {
+    if (arc.is_ev()) {
+      require(below(arc.vertex(), scene.points().size()));
+      require(below(arc.edge(), scene.edges().size()));
+    } else {
+      for (const int edge : arc.edges()) require(below(edge, scene.edges().size()));
+    }
     for (const std::uint32_t n : arc.nodes) {
       require(below(n, stored.skeleton.nodes.size()));
     }
-  };
-  for (const SkeletonArc& arc : stored.skeleton.arcs) {
-    require(below(arc.vertex, scene.points().size()));
-    require(below(arc.edge, scene.edges().size()));
-    require_nodes(arc);
-  }
-  for (const EeeArc& arc : stored.skeleton.eee_arcs) {
-    for (const int edge : arc.edges) require(below(edge, scene.edges().size()));
-    require_nodes(arc);
   }
   const Simplified& left_out = stored.skeleton.simplified;
   for (const int e : left_out.edges) require(below(e, scene.edges().size()));

@@ -100,20 +100,22 @@ void add_contacts(Cells& cells, const Skeleton& skeleton,
 
 void add_arc_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton,
                     Stage& stage) {
-  for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
-    stage.at(i, skeleton.arcs.size());
+  const std::size_t count = skeleton.ev_count();
+  for (std::size_t i = 0; i < count; ++i) {
+    stage.at(i, count);
     const SkeletonArc& arc = skeleton.arcs[i];
-    const Edge& edge = scene.edges()[arc.edge];
+    const Edge& edge = scene.edges()[arc.edge()];
     const std::string kind = kind_name(arc);
     Cells& cells = blocks["arcs_" + kind];
-    cells.add_polygon({scene.point(arc.vertex), point_on_edge(scene, edge, arc.range[0]),
-                       point_on_edge(scene, edge, arc.range[1])},
-                      colour_of_kind(kind));
+    cells.add_polygon(
+        {scene.point(arc.vertex()), point_on_edge(scene, edge, arc.range[0]),
+         point_on_edge(scene, edge, arc.range[1])},
+        colour_of_kind(kind));
     cells.value("arc", {static_cast<int>(i)});
-    cells.value("vertex", {arc.vertex});
-    cells.value("edge", {arc.edge});
+    cells.value("vertex", {arc.vertex()});
+    cells.value("edge", {arc.edge()});
     cells.value("objects",
-                {scene.edges()[scene.edges_at(arc.vertex)[0]].object, edge.object});
+                {scene.edges()[scene.edges_at(arc.vertex())[0]].object, edge.object});
     cells.value("range", {arc.range[0], arc.range[1]});
     cells.value("nodes",
                 {static_cast<int>(arc.nodes[0]), static_cast<int>(arc.nodes[1])});
@@ -126,24 +128,26 @@ void add_eee_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skeleton
                     Stage& stage) {
   // Counted first: an array that grows takes up to three times its room.
   std::map<std::string, std::pair<vtkIdType, vtkIdType>> sizes;
-  for (const EeeArc& arc : skeleton.eee_arcs) {
-    stage.at(0, skeleton.eee_arcs.size());
+  const std::size_t first = skeleton.ev_count();
+  const std::size_t count = skeleton.arcs.size() - first;
+  for (const SkeletonArc& arc : skeleton.eee()) {
+    stage.at(0, count);
     auto& [strips, points] = sizes["arcs_" + kind_name(arc)];
     ++strips;
     points += 2 * static_cast<vtkIdType>(rungs_of(scene, arc).size());
   }
   for (const auto& [name, size] : sizes) blocks[name].reserve(size.first, size.second);
-  for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
-    stage.at(i, skeleton.eee_arcs.size());
-    const EeeArc& arc = skeleton.eee_arcs[i];
+  for (std::size_t i = 0; i < count; ++i) {
+    stage.at(i, count);
+    const SkeletonArc& arc = skeleton.arcs[first + i];
     const std::string kind = kind_name(arc);
     Cells& cells = blocks["arcs_" + kind];
     cells.add_strip(rungs_of(scene, arc), colour_of_kind(kind));
-    cells.value("arc", {static_cast<int>(skeleton.arcs.size() + i)});
-    cells.value("edges", {arc.edges[0], arc.edges[1], arc.edges[2]});
-    cells.value("objects",
-                {scene.edges()[arc.edges[0]].object, scene.edges()[arc.edges[1]].object,
-                 scene.edges()[arc.edges[2]].object});
+    cells.value("arc", {static_cast<int>(first + i)});
+    const auto& [a, b, c] = arc.edges();
+    cells.value("edges", {a, b, c});
+    cells.value("objects", {scene.edges()[a].object, scene.edges()[b].object,
+                            scene.edges()[c].object});
     cells.value("range", {arc.range[0], arc.range[1]});
     cells.value("nodes",
                 {static_cast<int>(arc.nodes[0]), static_cast<int>(arc.nodes[1])});
@@ -156,7 +160,7 @@ void add_strip_blocks(Blocks& blocks, const Scene& scene, const Skeleton& skelet
                       const std::vector<RuledStrip>& strips) {
   for (const RuledStrip& strip : strips) {
     const SkeletonArc& arc = skeleton.arcs[strip.arc];
-    const Point& v = scene.point(arc.vertex);
+    const Point& v = scene.point(arc.vertex());
     Cells& cells = blocks["strips_" + kind_name(arc)];
     for (std::size_t i = 1; i < strip.rungs.size(); ++i) {
       const FarEnds& a = strip.rungs[i - 1];

@@ -302,9 +302,9 @@ void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
               std::span<const int> arcs, float opacity) {
   for (const int i : arcs) {
     const SkeletonArc& arc = skeleton.arcs[i];
-    const Edge& edge = scene.edges()[arc.edge];
+    const Edge& edge = scene.edges()[arc.edge()];
     const Colour colour = colour_of_kind(kind_name(arc));
-    const Point& v = scene.point(arc.vertex);
+    const Point& v = scene.point(arc.vertex());
     const Point a = point_on_edge(scene, edge, arc.range[0]);
     const Point b = point_on_edge(scene, edge, arc.range[1]);
     drawing.veils.push_back({{v, a, b}, colour, opacity});
@@ -312,19 +312,20 @@ void add_arcs(Drawing& drawing, const Scene& scene, const Skeleton& skeleton,
   }
 }
 
-std::vector<std::array<Point, 2>> rungs_of(const Scene& scene, const EeeArc& arc) {
+std::vector<std::array<Point, 2>> rungs_of(const Scene& scene, const SkeletonArc& arc) {
   const double size = (scene.bounds()[1] - scene.bounds()[0]).norm();
   const auto swath = swath_of(scene, arc);
   return swath ? swath->rungs(arc.range, kEeeDeviation * size)
                : std::vector<std::array<Point, 2>>{};
 }
 
-double spanned_volume(const Scene& scene, const EeeArc& arc) {
+double spanned_volume(const Scene& scene, const SkeletonArc& arc) {
   const auto swath = swath_of(scene, arc);
   return swath ? swath->spanned_volume(arc.range) : 0;
 }
 
-void add_eee_arc(Drawing& drawing, const Scene& scene, const EeeArc& arc, float opacity) {
+void add_eee_arc(Drawing& drawing, const Scene& scene, const SkeletonArc& arc,
+                 float opacity) {
   const Colour colour = colour_of_kind(kind_name(arc));
   const std::vector<std::array<Point, 2>> rungs = rungs_of(scene, arc);
   for (std::size_t i = 1; i < rungs.size(); ++i) {
@@ -351,7 +352,7 @@ RuledStrip ruled_strip(const Scene& scene, const SkeletonLines& lines,
   };
   const auto rung_at = [&](double t) {
     const double s = a.range[0] + t * (a.range[1] - a.range[0]);
-    return Rung{t, far_ends(scene, lines, a, s)};
+    return Rung{t, *far_ends(scene, lines, a, s)};
   };
   // The two rungs next to the change between x and y, to a picture's accuracy.
   const auto add_change = [&](RuledStrip& strip, Rung x, Rung y) {
@@ -378,7 +379,7 @@ void add_strip(SceneView& view, const Scene& scene, const Skeleton& skeleton,
                const RuledStrip& strip, float opacity) {
   const SkeletonArc& arc = skeleton.arcs[strip.arc];
   const Colour colour = colour_of_kind(kind_name(arc));
-  const Point& v = scene.point(arc.vertex);
+  const Point& v = scene.point(arc.vertex());
   for (std::size_t i = 1; i < strip.rungs.size(); ++i) {
     const FarEnds& a = strip.rungs[i - 1];
     const FarEnds& b = strip.rungs[i];

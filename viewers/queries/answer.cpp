@@ -252,10 +252,10 @@ Json arc_counts(const Skeleton& skeleton) {
         return arc.self == self && (arc.ends[0] || arc.ends[1]) == end;
       });
     };
-    return Json{{"EV", count(skeleton.arcs, false)},
-                {"EEE", count(skeleton.eee_arcs, false)},
-                {"EV_self", count(skeleton.arcs, true)},
-                {"EEE_self", count(skeleton.eee_arcs, true)}};
+    return Json{{"EV", count(skeleton.ev(), false)},
+                {"EEE", count(skeleton.eee(), false)},
+                {"EV_self", count(skeleton.ev(), true)},
+                {"EEE_self", count(skeleton.eee(), true)}};
   };
   Json counts = counts_of(false);
   if (skeleton.events == EventMode::Polygon) counts["end"] = counts_of(true);
@@ -330,33 +330,23 @@ Json node_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
 
 Json arc_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
   const SkeletonArc& arc = skeleton.arcs[id];
-  Json j{{"id", id},
-         {"kind", kind_name(arc)},
-         {"vertex", vertex_json(scene, arc.vertex)},
-         {"edge", edge_json(scene, arc.edge)},
-         {"range", {arc.range[0], arc.range[1]}},
-         {"nodes", {arc.nodes[0], arc.nodes[1]}}};
-  if (skeleton.events == EventMode::Polygon) {
-    j["vertex"]["contact"] = contact_name(arc.ends[0]);
-    j["edge"]["contact"] = contact_name(arc.ends[1]);
+  const bool told = skeleton.events == EventMode::Polygon;
+  Json j{{"id", id}, {"kind", kind_name(arc)}};
+  if (arc.is_ev()) {
+    j["vertex"] = vertex_json(scene, arc.vertex());
+    j["edge"] = edge_json(scene, arc.edge());
+    if (told) j["vertex"]["contact"] = contact_name(arc.ends[0]);
+    if (told) j["edge"]["contact"] = contact_name(arc.ends[1]);
+  } else {
+    const std::array<bool, 3> ends{arc.ends[0], false, arc.ends[1]};
+    for (const int k : {0, 1, 2}) {
+      j["edges"].push_back(edge_json(scene, arc.edges()[k]));
+      if (told) j["edges"][k]["contact"] = contact_name(ends[k]);
+    }
   }
+  j["range"] = {arc.range[0], arc.range[1]};
+  j["nodes"] = {arc.nodes[0], arc.nodes[1]};
   return j;
-}
-
-Json eee_arc_json(const Scene& scene, const Skeleton& skeleton, std::size_t id) {
-  const EeeArc& arc = skeleton.eee_arcs[id];
-  Json edges = Json::array();
-  for (const int e : arc.edges) edges.push_back(edge_json(scene, e));
-  if (skeleton.events == EventMode::Polygon) {
-    edges[0]["contact"] = contact_name(arc.ends[0]);
-    edges[1]["contact"] = contact_name(false);
-    edges[2]["contact"] = contact_name(arc.ends[1]);
-  }
-  return {{"id", skeleton.arcs.size() + id},
-          {"kind", kind_name(arc)},
-          {"edges", std::move(edges)},
-          {"range", {arc.range[0], arc.range[1]}},
-          {"nodes", {arc.nodes[0], arc.nodes[1]}}};
 }
 
 Json simplified_json(const Scene& scene, const Simplified& simplified, bool with_ids) {

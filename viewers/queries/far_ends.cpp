@@ -36,15 +36,9 @@ Point point_on_edge(const Scene& scene, const Edge& edge, double s) {
   return s <= 0.5 ? Point(a + s * (b - a)) : Point(b - (1 - s) * (b - a));
 }
 
-FarEnds far_ends(const Scene& scene, const SkeletonLines& lines, const SkeletonArc& arc,
-                 double s) {
-  const auto [v, x] = lines.points(arc, s);
-  return far_ends_of(scene, lines.line(arc, s), v.nearest, x.nearest);
-}
-
 std::optional<FarEnds> far_ends(const Scene& scene, const SkeletonLines& lines,
-                                const EeeArc& arc, double s) {
-  if (!(s > arc.range[0] && s < arc.range[1])) return std::nullopt;
+                                const SkeletonArc& arc, double s) {
+  if (!arc.is_ev() && !(s > arc.range[0] && s < arc.range[1])) return std::nullopt;
   const auto free = lines.line(arc, s);
   const auto at = lines.points(arc, s);
   if (!free || !at) return std::nullopt;

@@ -2,9 +2,10 @@
 
 namespace sightline::viewers {
 
-std::string kind_name(const SkeletonArc& arc) { return arc.self ? "EV_self" : "EV"; }
-
-std::string kind_name(const EeeArc& arc) { return arc.self ? "EEE_self" : "EEE"; }
+std::string kind_name(const SkeletonArc& arc) {
+  const std::string name = arc.is_ev() ? "EV" : "EEE";
+  return arc.self ? name + "_self" : name;
+}
 
 std::string kind_name(const SkeletonNode& node) {
   std::string name;
@@ -45,11 +46,9 @@ std::string kind_name(const SkeletonNode& node) {
 std::vector<std::string> kind_names() {
   std::vector<std::string> names;
   for (const bool self : {false, true}) {
-    SkeletonArc ev{};
-    ev.self = self;
-    EeeArc eee{};
-    eee.self = self;
-    names.insert(names.end(), {kind_name(ev), kind_name(eee)});
+    for (const ArcKind kind : {ArcKind::EV, ArcKind::EEE}) {
+      names.push_back(kind_name(SkeletonArc{.kind = kind, .self = self}));
+    }
   }
   for (const bool self : {false, true}) {
     for (const NodeKind kind :

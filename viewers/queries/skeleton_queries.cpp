@@ -19,7 +19,7 @@ std::vector<std::int32_t> facets_named(const Scene& scene, const std::string& gr
   return facets;
 }
 
-void sort_unique(std::vector<ArcRef>& arcs) {
+void sort_unique(std::vector<std::uint32_t>& arcs) {
   std::sort(arcs.begin(), arcs.end());
   arcs.erase(std::unique(arcs.begin(), arcs.end()), arcs.end());
 }
@@ -29,16 +29,11 @@ std::string end_name(const Scene& scene, std::int32_t facet) {
   return scene.objects()[scene.facets()[facet].object].name;
 }
 
-Json one_arc_json(const Scene& scene, const Skeleton& skeleton, const ArcRef& arc) {
-  return arc.kind == ArcKind::EV ? arc_json(scene, skeleton, arc.id)
-                                 : eee_arc_json(scene, skeleton, arc.id);
-}
-
 }  // namespace
 
-std::vector<ArcRef> seen_from(const Scene& scene, const EndIndex& ends,
-                              const std::string& group) {
-  std::vector<ArcRef> arcs;
+std::vector<std::uint32_t> seen_from(const Scene& scene, const EndIndex& ends,
+                                     const std::string& group) {
+  std::vector<std::uint32_t> arcs;
   for (const std::int32_t facet : facets_named(scene, group)) {
     const auto seen = ends.seen_from(facet);
     arcs.insert(arcs.end(), seen.begin(), seen.end());
@@ -47,9 +42,9 @@ std::vector<ArcRef> seen_from(const Scene& scene, const EndIndex& ends,
   return arcs;
 }
 
-std::vector<ArcRef> between_ends(const Scene& scene, const EndIndex& ends,
-                                 const std::array<std::string, 2>& groups) {
-  std::vector<ArcRef> arcs;
+std::vector<std::uint32_t> between_ends(const Scene& scene, const EndIndex& ends,
+                                        const std::array<std::string, 2>& groups) {
+  std::vector<std::uint32_t> arcs;
   const auto others = facets_named(scene, groups[1]);
   for (const std::int32_t a : facets_named(scene, groups[0])) {
     for (const std::int32_t b : others) {
@@ -62,12 +57,12 @@ std::vector<ArcRef> between_ends(const Scene& scene, const EndIndex& ends,
 }
 
 Json arcs_by_ends_json(const Scene& scene, const Skeleton& skeleton, const EndIndex& ends,
-                       const std::vector<ArcRef>& arcs) {
+                       const std::vector<std::uint32_t>& arcs) {
   Json list = Json::array();
   int ev = 0;
-  for (const ArcRef& arc : arcs) {
-    ev += static_cast<int>(arc.kind == ArcKind::EV);
-    Json j = one_arc_json(scene, skeleton, arc);
+  for (const std::uint32_t arc : arcs) {
+    ev += static_cast<int>(skeleton.arcs[arc].is_ev());
+    Json j = arc_json(scene, skeleton, arc);
     Json pieces = Json::array();
     const auto all = ends.pieces(arc);
     for (std::size_t k = 0; k < all.size(); ++k) {
@@ -96,8 +91,7 @@ Json events_json(const Scene& scene, const Skeleton& skeleton,
                     {"faces", source_polygons(scene, scene.facets()[e.id].faces)},
                     {"objects", {scene.objects()[scene.facets()[e.id].object].name}}};
     } else {
-      const ArcKind kind = e.kind == EventKind::EV ? ArcKind::EV : ArcKind::EEE;
-      j.update(one_arc_json(scene, skeleton, {kind, e.id}));
+      j.update(arc_json(scene, skeleton, e.id));
       j["side"] = e.side;
     }
     list.push_back(std::move(j));

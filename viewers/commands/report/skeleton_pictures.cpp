@@ -23,11 +23,11 @@ int object_of_vertex(const Scene& scene, int vertex) {
   return scene.edges()[scene.edges_at(vertex)[0]].object;
 }
 
-/// The largest set of arcs with one key; arcs without a key do not count.
+/// The largest set of EV arcs with one key; arcs without a key do not count.
 template <typename Key>
 std::vector<int> busiest(const Skeleton& skeleton, const Key& key) {
   std::map<int, std::vector<int>> by_key;
-  for (std::size_t i = 0; i < skeleton.arcs.size(); ++i) {
+  for (std::size_t i = 0; i < skeleton.ev_count(); ++i) {
     if (const std::optional<int> k = key(skeleton.arcs[i])) {
       by_key[*k].push_back(static_cast<int>(i));
     }
@@ -43,10 +43,10 @@ std::optional<int> showiest_eee(const Scene& scene, const Skeleton& skeleton,
                                 const std::vector<char>& inner) {
   std::optional<int> best;
   std::pair<bool, double> best_score;
-  for (std::size_t i = 0; i < skeleton.eee_arcs.size(); ++i) {
-    const EeeArc& arc = skeleton.eee_arcs[i];
+  for (std::size_t i = skeleton.ev_count(); i < skeleton.arcs.size(); ++i) {
+    const SkeletonArc& arc = skeleton.arcs[i];
     const bool all_inner = std::ranges::all_of(
-        arc.edges, [&](int e) { return inner[scene.edges()[e].object] != 0; });
+        arc.edges(), [&](int e) { return inner[scene.edges()[e].object] != 0; });
     const bool both_eeee = std::ranges::all_of(arc.nodes, [&](std::uint32_t n) {
       return skeleton.nodes[n].kind == NodeKind::EEEE;
     });
@@ -62,7 +62,7 @@ std::optional<int> showiest_eee(const Scene& scene, const Skeleton& skeleton,
 std::optional<int> showiest_eeee(const Scene& scene, const Skeleton& skeleton) {
   // Of each node the smallest surface that ends there: all of them are to be seen.
   std::vector<std::optional<double>> smallest(skeleton.nodes.size());
-  for (const EeeArc& arc : skeleton.eee_arcs) {
+  for (const SkeletonArc& arc : skeleton.eee()) {
     const double volume = spanned_volume(scene, arc);
     for (const std::uint32_t n : arc.nodes) {
       smallest[n] = std::min(smallest[n].value_or(volume), volume);
@@ -127,7 +127,7 @@ constexpr Colour kGeneratorEdge{0.95F, 0.35F, 0.05F};
 
 PagePicture eee_picture(const SceneView& view, const Canvas& canvas, const Scene& scene,
                         const Skeleton& skeleton, int id) {
-  const EeeArc& arc = skeleton.eee_arcs[id];
+  const SkeletonArc& arc = skeleton.arcs[id];
   SceneView marked = view;
   add_eee_arc(marked.drawing, scene, arc, 0.45F);
   const Colour colour = colour_of_kind(kind_name(arc));
@@ -138,7 +138,7 @@ PagePicture eee_picture(const SceneView& view, const Canvas& canvas, const Scene
         arc.range[0] + (arc.range[1] - arc.range[0]) * static_cast<double>(i) / kLines;
     marked.drawing.strokes.push_back({swath->line(s), colour, 1.1F, 0.75F, 0.12F});
   }
-  for (const int e : arc.edges) {
+  for (const int e : arc.edges()) {
     add_edge(marked.drawing, scene, e, kGeneratorEdge, 4.0F, 0.35F);
   }
   const std::vector<int> ends(arc.nodes.begin(), arc.nodes.end());
@@ -151,8 +151,8 @@ PagePicture eee_picture(const SceneView& view, const Canvas& canvas, const Scene
           "with nothing between: one EEE line set, a piece of a ruled quadric, drawn "
           "between its outer edges. It ends in the lines of kind {} and {}. An eye "
           "that crosses this curved surface beyond the edges sees them part or join.",
-          object_name(scene, arc.edges[0]), object_name(scene, arc.edges[1]),
-          object_name(scene, arc.edges[2]), kind(0), kind(1))};
+          object_name(scene, arc.edges()[0]), object_name(scene, arc.edges()[1]),
+          object_name(scene, arc.edges()[2]), kind(0), kind(1))};
 }
 
 PagePicture eeee_picture(const SceneView& view, const Canvas& canvas, const Scene& scene,
@@ -167,7 +167,7 @@ PagePicture eeee_picture(const SceneView& view, const Canvas& canvas, const Scen
     names += object_name(scene, g.id);
   }
   std::size_t arcs = 0;
-  for (const EeeArc& arc : skeleton.eee_arcs) {
+  for (const SkeletonArc& arc : skeleton.eee()) {
     if (std::ranges::find(arc.nodes, static_cast<std::uint32_t>(id)) == arc.nodes.end()) {
       continue;
     }
@@ -192,7 +192,7 @@ PagePicture vertex_picture(const SceneView& view, const Canvas& canvas,
   PagePicture picture = strips_picture(view, canvas, scene, skeleton, strips);
   picture.file = "vertex.png";
   picture.title = "All events of one vertex";
-  const Point& v = scene.point(skeleton.arcs[arcs[0]].vertex);
+  const Point& v = scene.point(skeleton.arcs[arcs[0]].vertex());
   picture.caption = fmt::format(
       "{} The vertex at ({:.4g}, {:.4g}, {:.4g}) and the silhouette edges it sees: "
       "each "
@@ -227,8 +227,8 @@ PagePicture objects_picture(const SceneView& view, const Canvas& canvas,
               "All {} EV arcs between {} and {}, each the triangle between its vertex "
               "and its part of the edge, with the lines at their ends. {}",
               arcs.size(),
-              html_escaped(scene.objects()[object_of_vertex(scene, one.vertex)].name),
-              html_escaped(scene.objects()[scene.edges()[one.edge].object].name),
+              html_escaped(scene.objects()[object_of_vertex(scene, one.vertex())].name),
+              html_escaped(scene.objects()[scene.edges()[one.edge()].object].name),
               "The same pair: <code>sightline skeleton --between A B</code>.")};
 }
 
@@ -256,18 +256,18 @@ Highlights find_highlights(const Scene& scene, const Skeleton& skeleton) {
   for (char& i : inner) i = any ? !i : 1;
   const int objects = static_cast<int>(scene.objects().size());
   const auto vertex_object = [&](const SkeletonArc& a) {
-    return object_of_vertex(scene, a.vertex);
+    return object_of_vertex(scene, a.vertex());
   };
   const auto edge_object = [&](const SkeletonArc& a) {
-    return scene.edges()[a.edge].object;
+    return scene.edges()[a.edge()].object;
   };
   using Key = std::optional<int>;
   Highlights found;
   found.vertex = busiest(skeleton, [&](const SkeletonArc& a) {
-    return inner[vertex_object(a)] ? Key(a.vertex) : Key();
+    return inner[vertex_object(a)] ? Key(a.vertex()) : Key();
   });
   found.edge = busiest(skeleton, [&](const SkeletonArc& a) {
-    return inner[edge_object(a)] ? Key(a.edge) : Key();
+    return inner[edge_object(a)] ? Key(a.edge()) : Key();
   });
   if (objects < 40000) {  // the pair's number fits an int
     found.pair = busiest(skeleton, [&](const SkeletonArc& a) {
