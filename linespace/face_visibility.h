@@ -1,8 +1,8 @@
 // Which faces of a scene see each other, exactly.
 //
-// The same decision as polygon_visibility, with all faces of a scene as occluders.  They
-// are looked up only where a segment runs that nothing known blocks, so that the cost
-// follows what hides, not the size of the scene.
+// The same decision as polygon_visibility, with all faces of a scene as occluders.  The
+// occluders are looked up only where a segment runs that nothing known blocks, so that
+// the cost follows what hides, not the size of the scene.
 
 #pragma once
 
@@ -63,10 +63,11 @@ class FaceVisibility {
 
   /// Whether some face of `as` sees some face of `bs`, not counting segments that begin
   /// or end in a convex solid which the other face does not reach into: the face's own,
-  /// or one glued to all of it.  With all_pairs every pair is decided as by between(a, b)
-  /// and listed.  A visible pair ends the question: what the other pairs would cost does
-  /// not count.  On `request.threads` threads; the answer, and the pair that is told, are
-  /// the same for any number.
+  /// or one glued to all of it (a room, `Object::inside_out`, is air inside and none).
+  /// With all_pairs every pair is decided as by between(a, b) and listed.  A visible pair
+  /// ends the question: what the other pairs would cost does not count.  On
+  /// `request.threads` threads; the answer, and the pair that is told, are the same for
+  /// any number.
   [[nodiscard]] GroupAnswer between(std::span<const int> as, std::span<const int> bs,
                                     bool all_pairs,
                                     const VisibilityRequest& request = {}) const;

@@ -16,7 +16,6 @@
 #include "linespace/scene/scene.h"
 #include "linespace/seams.h"
 #include "linespace/silhouettes/silhouettes.h"
-#include "linespace/space/bvh.h"
 #include "linespace/work/stage.h"
 
 namespace sightline {
@@ -76,14 +75,8 @@ bool in_one_plane(const Scene& scene, int a, int b) {
   });
 }
 
-std::vector<Box> boxes_of_faces(const Scene& scene) {
-  std::vector<Box> boxes;
-  for (std::size_t f = 0; f < scene.faces().size(); ++f) {
-    hear_stop();
-    boxes.push_back(box_of(polygon_of(scene, static_cast<int>(f))));
-  }
-  return boxes;
-}
+// What is behind all of its faces is material.
+bool is_convex_solid(const Object& object) { return object.convex && !object.inside_out; }
 
 /// What a pair may cost in one pass.
 struct Effort {
@@ -112,7 +105,6 @@ struct FaceVisibility::Impl {
   int scaled_by;
   OccluderSet set;           // the pieces times 2^scaled_by
   std::vector<int> face_of;  // per piece
-  Bvh faces;                 // of the scene
 
   // Hears a stop of the thread's own scopes.
   Impl(const Scene& s, double seam) : Impl(s, seam > 0, FacePieces(s, seam)) {}
@@ -121,8 +113,7 @@ struct FaceVisibility::Impl {
         grown(is_grown),
         scaled_by(pieces.scale()),
         set(scaled(std::move(pieces.polygons), scaled_by)),
-        face_of(std::move(pieces.face)),
-        faces(boxes_of_faces(s)) {}
+        face_of(std::move(pieces.face)) {}
 
   // In the units of the scene.
   [[nodiscard]] Polygon piece(int number) const {
@@ -159,7 +150,7 @@ struct FaceVisibility::Impl {
 // there.
 bool FaceVisibility::Impl::behind_solid(int a, int b) const {
   const Object& solid = scene.objects()[scene.faces()[a].object];
-  if (!solid.convex) return false;
+  if (!is_convex_solid(solid)) return false;
   const auto plane = plane_corners(scene, a);
   const bool behind = std::ranges::all_of(scene.face_points(b), [&](int p) {
     return orient3d(plane[0], plane[1], plane[2], scene.point(p)) != Sign::Positive;
@@ -177,22 +168,19 @@ bool FaceVisibility::Impl::behind_solid(int a, int b) const {
 // Face a, and the faces of convex solids in its plane that it lies in as a whole: solids
 // glued to it.
 std::vector<int> FaceVisibility::Impl::covering(int a) const {
+  hear_stop();
+  const int faces = static_cast<int>(scene.faces().size());
   std::vector<int> found{a};
-  const auto corners = scene.face_points(a);
-  const Polygon polygon = polygon_of(scene, a);
-  faces.traverse([&](const Box& box) { return boxes_meet(box, box_of(polygon)); },
-                 [&](std::uint32_t item) {
-                   const int face = static_cast<int>(item);
-                   if (face == a || !scene.objects()[scene.faces()[face].object].convex ||
-                       !in_one_plane(scene, a, face)) {
-                     return;
-                   }
-                   const bool holds_all = std::ranges::all_of(corners, [&](int p) {
-                     return locate_in_plane(scene, face, scene.point(p)) !=
-                            PointInFace::Outside;
-                   });
-                   if (holds_all) found.push_back(face);
-                 });
+  // The set begins with the faces, in their order.
+  for (const int face : set.meeting(box_of(set[a]))) {
+    if (face == a || face >= faces) continue;
+    if (!is_convex_solid(scene.objects()[scene.faces()[face].object])) continue;
+    if (!in_one_plane(scene, a, face)) continue;
+    const bool holds_all = std::ranges::all_of(scene.face_points(a), [&](int p) {
+      return locate_in_plane(scene, face, scene.point(p)) != PointInFace::Outside;
+    });
+    if (holds_all) found.push_back(face);
+  }
   return found;
 }
 
@@ -427,7 +415,8 @@ GroupAnswer FaceVisibility::between(std::span<const int> as, std::span<const int
   std::map<int, std::vector<int>> covering;
   for (const auto& faces : {as, bs}) {
     for (const int face : faces) {
-      if (!covering.contains(face)) covering[face] = impl_->covering(face);
+      if (all_pairs || covering.contains(face)) continue;
+      covering[face] = impl_->covering(face);
     }
   }
   const auto starts_inside = [&](int a, int b) {

@@ -118,6 +118,20 @@ std::vector<int> OccluderSet::near(const SightSpace& space, const SightPoint& s)
   return found;
 }
 
+std::vector<int> OccluderSet::meeting(const Box& box) const {
+  std::vector<int> found;
+  const auto meets = [&](const Box& other) { return boxes_meet(box, other); };
+  const auto visit = [&](std::size_t i) { found.push_back(static_cast<int>(i)); };
+  if (tree_) {
+    tree_->traverse(meets, visit);
+  } else {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      if (meets(boxes_[i])) visit(i);
+    }
+  }
+  return found;
+}
+
 std::array<Point, 2> OccluderSet::ends(const Side& side) const {
   const Polygon& p = polygons_[side.polygon];
   return {p[side.corner], p[(side.corner + 1) % p.size()]};

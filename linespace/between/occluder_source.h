@@ -28,6 +28,9 @@ class OccluderSet {
   /// arithmetic with bounds.
   [[nodiscard]] std::vector<int> near(const SightSpace& space, const SightPoint& s) const;
 
+  /// Polygons whose boxes meet that one, in no order.
+  [[nodiscard]] std::vector<int> meeting(const Box& box) const;
+
   /// The one other polygon that has this side, corner for corner, and which of its sides
   /// it is; nullopt for none or several.
   struct Side {

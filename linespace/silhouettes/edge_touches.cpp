@@ -10,8 +10,8 @@ namespace sightline::internal {
 namespace {
 
 // Where face f, which is not one of the edge's own, meets the open segment e0 e1.
-EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Point& e0,
-                   const Point& e1) {
+EdgeMeeting touch_of(const Scene& scene, const PlaneSide& plane, int f, const Point& e0,
+                     const Point& e1) {
   const Sign s0 = plane(e0);
   const Sign s1 = plane(e1);
   const auto corners = scene.face_points(f);
@@ -19,7 +19,7 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
   // 1. The edge is not in the face's plane.  An end in that plane is no inner point: such
   // an edge meets nothing here.
   if (s0 != Sign::Zero || s1 != Sign::Zero) {
-    if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) return EdgeTouch::None;
+    if (s0 == s1 || s0 == Sign::Zero || s1 == Sign::Zero) return EdgeMeeting::None;
     // Crosses the plane inside: within the closed polygon unless it passes some side on
     // the outside.
     bool at_edge = false;
@@ -33,9 +33,9 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
       }
       // Seen from the front a line going to the back passes inside on the left.
       const Sign inside = s0 == Sign::Positive ? Sign::Negative : Sign::Positive;
-      if (s != inside) return EdgeTouch::None;
+      if (s != inside) return EdgeMeeting::None;
     }
-    return at_edge ? EdgeTouch::Touches : EdgeTouch::Pierced;
+    return at_edge ? EdgeMeeting::Touches : EdgeMeeting::Pierced;
   }
   // 2. Coplanar: clip combinatorially.  Outside some side as a whole: no touch.
   const InPlaneSide left_of(scene, f);
@@ -51,7 +51,7 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
       along_side = true;
       continue;
     }
-    if (a != Sign::Positive && b != Sign::Positive) return EdgeTouch::None;
+    if (a != Sign::Positive && b != Sign::Positive) return EdgeMeeting::None;
     outside_ends[0] += a == Sign::Negative;
     outside_ends[1] += b == Sign::Negative;
   }
@@ -63,14 +63,14 @@ EdgeTouch touch_of(const Scene& scene, const PlaneSide& plane, int f, const Poin
     left |= s == Sign::Positive;
     right |= s == Sign::Negative;
   }
-  if (along_side) return EdgeTouch::Touches;
+  if (along_side) return EdgeMeeting::Touches;
   if (!left || !right) {
     // At most a corner of the polygon lies on the open segment.
-    return EdgeTouch::Touches;
+    return EdgeMeeting::Touches;
   }
   // 3. Both ends within the face: all of the edge is inside of it.
-  return outside_ends[0] == 0 && outside_ends[1] == 0 ? EdgeTouch::ContainsInside
-                                                      : EdgeTouch::Touches;
+  return outside_ends[0] == 0 && outside_ends[1] == 0 ? EdgeMeeting::ContainsInside
+                                                      : EdgeMeeting::Touches;
 }
 
 // The stretch of the edge e0 e1, as parameters, that lies in a coplanar face's closed
@@ -129,7 +129,7 @@ EdgeTouches::EdgeTouches(const Silhouettes& silhouettes,
   // ends the search where no edge has that face for its own.
   const auto enough = [&] {
     return !g_.polygon() && !skipped.empty() &&
-           counts_[static_cast<int>(EdgeTouch::ContainsInside)] > 0;
+           counts_[static_cast<int>(EdgeMeeting::ContainsInside)] > 0;
   };
   g_.face_tree().traverse(
       [&](const Box& other) { return !enough() && boxes_meet(box, other); },
@@ -153,9 +153,9 @@ void EdgeTouches::add(std::int32_t face) {
   const Point& e1 = s.point(points_[1]);
   const PlaneSide& plane = g_.face_plane(face);
   Item item{face, s.faces()[face].facet, touch_of(s, plane, face, e0, e1)};
-  if (item.touch == EdgeTouch::None) return;
-  item.ground = item.touch == EdgeTouch::ContainsInside;
-  if (item.touch == EdgeTouch::Touches && plane(e0) == Sign::Zero &&
+  if (item.touch == EdgeMeeting::None) return;
+  item.ground = item.touch == EdgeMeeting::ContainsInside;
+  if (item.touch == EdgeMeeting::Touches && plane(e0) == Sign::Zero &&
       plane(e1) == Sign::Zero) {
     item.stretch = stretch_inside(s, face, e0, e1);
     item.ground = item.stretch.has_value();
@@ -199,14 +199,14 @@ ForeignTouch EdgeTouches::without(std::span<const std::int32_t> own) const {
     }
   }
   ForeignTouch out;
-  for (int touch = 3; touch > 0 && out.touched == EdgeTouch::None; --touch) {
-    if (counts[touch] > 0) out.touched = static_cast<EdgeTouch>(touch);
+  for (int touch = 3; touch > 0 && out.touched == EdgeMeeting::None; --touch) {
+    if (counts[touch] > 0) out.touched = static_cast<EdgeMeeting>(touch);
   }
   out.covered = own_ground ? covered_without(own) : covered_;
   out.grounds = own_ground ? grounds_without(own) : grounds_;
-  if (out.touched != EdgeTouch::Pierced) return out;
+  if (out.touched != EdgeMeeting::Pierced) return out;
   for (const Item& item : items_) {
-    if (item.touch == EdgeTouch::Pierced && !holds(own, item.facet)) {
+    if (item.touch == EdgeMeeting::Pierced && !holds(own, item.facet)) {
       out.pierced_by.push_back(item.face);
     }
   }

@@ -16,11 +16,11 @@ namespace sightline::internal {
 
 /// How a face of another object, or of the same one elsewhere, meets the open edge.
 /// Pierced: in one point inside the face's facet, which it lies across.
-enum class EdgeTouch : std::uint8_t { None, Pierced, Touches, ContainsInside };
+enum class EdgeMeeting : std::uint8_t { None, Pierced, Touches, ContainsInside };
 
 /// What the faces that are not an edge's own do to it.
 struct ForeignTouch {
-  EdgeTouch touched = EdgeTouch::None;  ///< the strongest
+  EdgeMeeting touched = EdgeMeeting::None;  ///< the strongest
   /// Coplanar faces that are not bounded along the edge cover all of it.
   bool covered = false;
   std::vector<std::int32_t> pierced_by = {};  ///< only where `touched` is Pierced
@@ -43,7 +43,7 @@ class EdgeTouches {
  private:
   struct Item {
     std::int32_t face, facet;
-    EdgeTouch touch;
+    EdgeMeeting touch;
     bool ground = false;                                  // contains a part of the edge
     std::optional<std::array<Rational, 2>> stretch = {};  // that part, if not all
   };
@@ -56,7 +56,7 @@ class EdgeTouches {
   std::array<std::int32_t, 2> points_;
   std::vector<Item> items_;             // in the order of the faces' tree
   std::vector<std::int32_t> by_facet_;  // positions there, by facet
-  std::array<int, 4> counts_{};         // by EdgeTouch
+  std::array<int, 4> counts_{};         // by EdgeMeeting
   bool covered_ = false;                // of all faces
   std::vector<std::int32_t> grounds_;   // of all faces
 };

@@ -207,8 +207,8 @@ bool Silhouettes::fronts_face_gap(const Edge& e, const EdgeFaces& at) const {
 
 // How faces that are not the edge's own touch it, and what it can become.
 void Silhouettes::find_touching(const Edge& e, ForeignTouch found, EdgeFaces& at) const {
-  const EdgeTouch touched = found.touched;
-  const bool inside_faces = found.covered || touched == EdgeTouch::ContainsInside;
+  const EdgeMeeting touched = found.touched;
+  const bool inside_faces = found.covered || touched == EdgeMeeting::ContainsInside;
   // The foot of a wall is a valley of the union; what hangs below an open floor too.
   at.foot = polygon() && inside_faces && std::ranges::any_of(found.grounds, [&](int f) {
               const bool solid = solid_behind(f);
@@ -217,10 +217,11 @@ void Silhouettes::find_touching(const Edge& e, ForeignTouch found, EdgeFaces& at
                 return side == Sign::Positive || (!solid && side == Sign::Negative);
               });
             });
-  at.touched = touched == EdgeTouch::Pierced || touched == EdgeTouch::Touches || at.foot;
+  at.touched =
+      touched == EdgeMeeting::Pierced || touched == EdgeMeeting::Touches || at.foot;
   at.pierced_by = std::move(found.pierced_by);
   at.buried = buried_stretches(e.points, at.pierced_by);
-  const bool all_buried = touched == EdgeTouch::None && untouched_in_material(e.points);
+  const bool all_buried = touched == EdgeMeeting::None && untouched_in_material(e.points);
   at.is_ridge = (!inside_faces || at.foot) && !all_buried;
 }
 

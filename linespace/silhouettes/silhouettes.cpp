@@ -32,13 +32,6 @@ std::vector<Box> boxes_of_faces(const Scene& scene) {
 
 }  // namespace
 
-bool boxes_meet(const Box& a, const Box& b) {
-  for (int i = 0; i < 3; ++i) {
-    if (a.min[i] > b.max[i] || a.max[i] < b.min[i]) return false;
-  }
-  return true;
-}
-
 InPlaneSide::InPlaneSide(const Scene& scene, int face) {
   const auto corners = scene.face_points(face);
   const Point& a = scene.point(corners[0]);

@@ -128,9 +128,9 @@ struct Star {
 
 class Silhouettes {
  public:
-  /// Of the request only progress and threads are heard; the deadline is another's
-  /// where this is a part of longer work.  Throws Stopped.  Cost: n log n for n faces
-  /// where few of them touch.
+  /// Hears the request's progress and threads only; the deadline is that of the longer
+  /// work that this is a part of.  Throws Stopped.  Cost: n log n for n faces, copies of
+  /// objects included, where few others touch.
   explicit Silhouettes(const Scene& scene, EventMode events = EventMode::Solid,
                        const Request& request = {});
   Silhouettes(const Scene& scene, EventMode events, const Request& request,
@@ -308,9 +308,6 @@ void sort_unique(std::vector<T>& items) {
   const auto p = scene.face_points(face);
   return std::find(p.begin(), p.end(), point) != p.end();
 }
-
-/// The closed boxes have a point in common.
-[[nodiscard]] bool boxes_meet(const Box& a, const Box& b);
 
 /// The three points that give a face its plane.
 [[nodiscard]] inline std::array<std::int32_t, 3> plane_points(const Scene& scene,

@@ -135,6 +135,13 @@ Box box_of(std::span<const Point> points) {
   return box;
 }
 
+bool boxes_meet(const Box& a, const Box& b) {
+  for (int i = 0; i < 3; ++i) {
+    if (a.min[i] > b.max[i] || a.max[i] < b.min[i]) return false;
+  }
+  return true;
+}
+
 Bvh::Bvh(std::span<const Box> boxes, int leaf_size) : items_(boxes.size()) {
   assert(leaf_size > 0 && boxes.size() < std::numeric_limits<std::uint32_t>::max());
   if (boxes.empty()) return;

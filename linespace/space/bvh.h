@@ -16,6 +16,8 @@ struct Box {
 };
 
 [[nodiscard]] Box box_of(std::span<const Point> points);
+/// The closed boxes have a point in common.
+[[nodiscard]] bool boxes_meet(const Box& a, const Box& b);
 /// Rounded.
 [[nodiscard]] inline Point centre(const Box& box) {
   Point c;

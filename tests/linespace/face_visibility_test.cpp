@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "linespace/visibility_cover.h"
+#include "tests/support/add_box.h"
 #include "tests/support/generators.h"
 
 namespace sightline::testing {
@@ -71,6 +74,34 @@ TEST(FaceVisibility, GluedBoxesDoNotSeeThroughEachOther) {
   EXPECT_EQ(between(in_row({{1, 0, 0}, {2, 1, 0.5}}), "box0", "box2"), Verdict::Visible);
   EXPECT_EQ(between(in_row({{1 + 0x1p-30, 0, 0}, {2, 1, 1}}), "box0", "box1"),
             Verdict::Visible);
+}
+
+// A room is a box turned inside out: its inside is air, and its walls see each other and
+// what lies flush on them.
+TEST(FaceVisibility, WallsOfARoomSeeEachOtherAndWhatLiesOnThem) {
+  PolygonSoup soup;
+  add_box(soup, "room", {0, 0, 0}, {4, 4, 3});
+  for (auto& polygon : soup.polygons) std::ranges::reverse(polygon);
+  for (const auto& [x, y] : {std::pair(1, 1), {2, 1}, {2, 2}, {1, 2}}) {
+    soup.vertices.emplace_back(x, y, 0);
+  }
+  soup.polygons.push_back({8, 9, 10, 11});
+  soup.groups.push_back({"rug", {6}});
+  add_box(soup, "outside", {6, 1, 1}, {7, 2, 2});
+  const Scene scene(soup);
+  ASSERT_TRUE(scene.objects()[0].inside_out);
+  const FaceVisibility visibility(scene);
+  const std::vector<int> walls = faces_of(scene, "room");
+  for (const int a : walls) {
+    for (const int b : walls) {
+      const Verdict expected = a == b ? Verdict::Hidden : Verdict::Visible;
+      EXPECT_EQ(visibility.between({&a, 1}, {&b, 1}, false).verdict, expected)
+          << a << " " << b;
+    }
+  }
+  EXPECT_EQ(between(scene, "room", "rug"), Verdict::Visible);
+  EXPECT_EQ(between(scene, "rug", "outside"), Verdict::Hidden);
+  EXPECT_EQ(between(scene, "room", "outside"), Verdict::Visible);
 }
 
 TEST(FaceVisibility, AllPairsAgreeWithAskingWithAllFacesAsOccluders) {
