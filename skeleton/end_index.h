@@ -51,7 +51,8 @@ class EndIndex {
                                                               std::int32_t b) const {
     return facet_pairs_.find(a, b);
   }
-  /// The same for objects, which groups of the file make.
+  /// Arcs with a line that runs from one object to the other; groups of the file are
+  /// objects.
   [[nodiscard]] std::span<const std::uint32_t> between_objects(std::int32_t a,
                                                                std::int32_t b) const {
     return object_pairs_.find(a, b);

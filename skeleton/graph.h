@@ -148,7 +148,7 @@ struct Skeleton {
     return static_cast<std::size_t>(end - arcs.begin());
   }
 
-  /// Of its nodes, arcs and generators: what Request::budget_bytes limits.
+  /// Bytes of the nodes, arcs and generators: what Request::budget_bytes limits.
   [[nodiscard]] std::size_t bytes() const {
     return nodes.size() * sizeof(SkeletonNode) + arcs.size() * sizeof(SkeletonArc) +
            generator_pool.size() * sizeof(Generator);

@@ -17,19 +17,18 @@ namespace sightline {
 /// Keeps a reference to the scene.  Immutable once built; safe to share between threads.
 class SkeletonLines {
  public:
-  /// Of the request, budget, stop, progress and threads count.  Throws Stopped.
+  /// Hears the request's budget, stop, progress and threads.  Throws Stopped.
   explicit SkeletonLines(const Scene& scene, const Request& request = {});
   ~SkeletonLines();
   SkeletonLines(SkeletonLines&&) noexcept;
 
-  /// All of them: where an outer contact is an end contact the free segment ends there,
-  /// and it is the first or the last of the contacts, blocked.
-  ///
   /// The line of an arc at a parameter s strictly inside its range, exactly.  EV: through
   /// the vertex (position 0) and the point of the edge at s (position 1).  EEE: through
   /// the point of the first edge at s (position 0), the middle edge, and the last edge
   /// (position 1); nullopt when the plane of that point and the middle edge is parallel
-  /// to the last edge, which happens only outside the arc.  Cost: some 10 microseconds.
+  /// to the last edge, which happens only outside the arc.  Where an outer contact is an
+  /// end contact the free segment ends there, and it is the first or the last of the
+  /// contacts, blocked.  Cost: some 10 microseconds.
   [[nodiscard]] std::optional<FreeSegment> line(const SkeletonArc& arc, double s) const;
 
   /// The points of line(arc, s) at positions 0 and 1, exactly.  Of s with few digits they

@@ -62,8 +62,8 @@ class ViewEvents {
   /// microseconds an event.  The first call builds an index of all arcs by space, on all
   /// cores: about two microseconds and 130 bytes an arc.
   [[nodiscard]] std::vector<ViewEvent> crossed(const Point& a, const Point& b) const;
-  /// Of the arcs with these numbers only, and no facets; asks each of them, and needs no
-  /// index.
+  /// The events among the arcs with these numbers, in order; no facets.  Asks each of the
+  /// arcs, and needs no index.
   [[nodiscard]] std::vector<ViewEvent> crossed(const Point& a, const Point& b,
                                                std::span<const std::uint32_t> arcs) const;
 

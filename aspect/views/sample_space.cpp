@@ -16,9 +16,6 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-// A vector shorter than that would lose digits of its direction; one in 10^10 is.
-constexpr double kTooShort = 1e-3;
-
 void add_pair(std::vector<std::array<int, 2>>& pairs, int a, int b) {
   pairs.push_back({std::min(a, b), std::max(a, b)});
 }
@@ -146,7 +143,7 @@ std::vector<Point> random_samples(const Scene& scene, const AspectRequest& reque
     std::normal_distribution<double> normal;
     while (static_cast<int>(out.size()) < count) {
       const Point p(normal(random), normal(random), normal(random));
-      if (p.norm() > kTooShort) out.push_back(p.normalized());
+      if (p.norm() > 0) out.push_back(p.normalized());
     }
     return out;
   }

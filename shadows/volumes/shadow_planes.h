@@ -27,7 +27,7 @@ struct ShadowPlane {
 /// points are: the two overlap.
 [[nodiscard]] std::vector<ShadowPlane> shadow_planes(const ConvexBody& source,
                                                      const ConvexBody& solid);
-/// Those of the planes of a body's own facets.
+/// The half-spaces behind a body's own facets, whose common part the body is.
 [[nodiscard]] std::vector<ShadowPlane> body_planes(const ConvexBody& body,
                                                    ShadowSideKind kind);
 

@@ -41,7 +41,8 @@ struct FoundNode {
   std::uint8_t count = 0;
   std::array<Generator, 4> generators{};
   std::array<Point, 2> segment;
-  /// Of a line with more contacts: all of them, in order; `generators` are not used.
+  /// All generators in order, where the line has more than four; `generators` is not
+  /// used then.
   std::vector<Generator> all;
   LineName line;  ///< as of NodeContacts
 };

@@ -244,7 +244,9 @@ StoredSkeleton skeleton_from(const Json& j) {
   for (const Json& a : j.at("list").at("arcs")) {
     skeleton.arcs.push_back(arc_from(a));
   }
-  std::ranges::stable_partition(skeleton.arcs, &SkeletonArc::is_ev);
+  if (!std::ranges::is_partitioned(skeleton.arcs, &SkeletonArc::is_ev)) {
+    throw Malformed("an EV arc is listed after an EEE arc");
+  }
   return stored;
 }
 
