@@ -7,7 +7,9 @@
 namespace sightline::internal {
 
 SeenElements::SeenElements(const PathScene& scene, const PointView& view)
-    : scene_(&scene), view_(&view) {
+    : scene_(&scene),
+      view_(&view),
+      has_horizon_(view.place != EyePlace::Free && view.place != EyePlace::Inside) {
   for (const MapRegion& r : view.regions) planes_.push_back(plane(r));
   for (const SeenFacet& f : view.facets) shown_facets_.insert(f.facet);
   add_edges();
@@ -60,7 +62,7 @@ void SeenElements::add_edges() {
     for (const int line : scene_->lines_of(edge.line)) {
       const int whole = scene_->scene().whole_line(line);
       shown_lines_.insert(whole);
-      if (lies_behind(edge, line)) edges_of_line_[whole].push_back(e);
+      if (has_horizon_ || lies_behind(edge, line)) edges_of_line_[whole].push_back(e);
       for (const int v : edge.ends) lines_at_[v].push_back(line);
     }
     for (const int v : edge.ends) {
@@ -104,7 +106,7 @@ void SeenElements::add_vertices() {
 // What is seen in the region lies before y, or contains it.
 bool SeenElements::hides(int region, const Point& y) const {
   const auto& plane = planes_[region];
-  if (!plane) return false;
+  if (!plane || has_horizon_) return false;
   return plane->normal.dot(y - plane->at) < -kDepthMargin * scene_->size();
 }
 

@@ -60,6 +60,9 @@ class SeenElements {
 
   const PathScene* scene_;
   const PointView* view_;
+  /// The eye is on the scene: what is in a plane of a face there is seen on its horizon,
+  /// behind what hides all beside it.
+  bool has_horizon_;
   std::vector<std::optional<Plane>> planes_;  // of regions
   std::vector<std::set<int>> regions_at_;     // by vertex
   std::vector<std::vector<int>> lines_at_;    // by vertex

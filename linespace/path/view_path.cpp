@@ -63,7 +63,8 @@ std::vector<Part> parts_of(std::size_t segments) {
 // What is found on a part, or on the parts so far.
 struct Found {
   ViewPath path;
-  WalkViewPtr first, last;
+  // Told of the first stretch, of the second and of the last.
+  WalkViewPtr first, second, last;
   // Accidents that last where a segment begins and where it ends.
   std::vector<Accident> beginning, ending;
 };
@@ -155,6 +156,7 @@ void Walker::walk_part(const Part& part, Found& found) const {
     found.path.changes.push_back(change(part.segment, next, std::move(step->events),
                                         now->view, step->after->view));
     now = found.last = step->after;
+    if (!found.second) found.second = now;
     u = next;
   }
   add_stretch(found, part.segment, u, static_cast<double>(part.to), now);
@@ -182,6 +184,14 @@ void Walker::append(const Part& part, Found next, Found& all) const {
   } else if (within && all.last && !more.stretches.empty()) {
     path.stretches.back().u_to = more.stretches.front().u_to;
     more.stretches.erase(more.stretches.begin());
+    // One structure may show other facets of a patch: changes are told between the views
+    // that are told.
+    if (next.second) {
+      PathChange& c = more.changes.front();
+      c = change(c.segment, c.u, std::move(c.events), all.last->view, next.second->view);
+    } else {
+      next.last = all.last;
+    }
   }
   std::ranges::move(more.changes, std::back_inserter(path.changes));
   std::ranges::move(more.stretches, std::back_inserter(path.stretches));

@@ -47,6 +47,11 @@ struct BoundedForm {
   bool zero[2][2];
   double error;
   double largest;
+
+  /// Known to be zero everywhere: all lines of the pair meet the carrier.
+  [[nodiscard]] bool vanishes() const {
+    return zero[0][0] && zero[0][1] && zero[1][0] && zero[1][1];
+  }
 };
 
 /// The two outer edges, by point ids.

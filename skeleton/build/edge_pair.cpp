@@ -207,19 +207,18 @@ bool EdgePairs::gather(const Outer& outer) {
 }
 
 // Tells the cells of a face that may meet a segment between the edges, unless both edges
-// lie on one side of its plane.
+// lie on one side of its plane, or in it: then no segment crosses the plane.
 void EdgePairs::add_to_cells(const Outer& outer, int face) {
   const auto& [p, q] = planes_of(outer, face);
-  if (p.sign0 == p.sign1 && p.sign0 == q.sign0 && p.sign0 == q.sign1 &&
-      p.sign0 != Sign::Zero) {
-    return;
-  }
+  if (p.sign0 == p.sign1 && p.sign0 == q.sign0 && p.sign0 == q.sign1) return;
   const bool front_only = enters_only(face);
   if (front_only && p.sign0 == Sign::Negative && p.sign1 == Sign::Negative) return;
   cell_sides_.clear();
   for (const auto& side : carriers_.of_face(face)) {
-    cell_sides_.push_back(
-        {&form_of(outer, side.carrier), carriers_.ridge[side.carrier], side.forward});
+    // A side in one plane with both edges is no middle edge: all their lines meet it.
+    const BoundedForm& form = form_of(outer, side.carrier);
+    const int middle = form.vanishes() ? -1 : carriers_.ridge[side.carrier];
+    cell_sides_.push_back({&form, middle, side.forward});
   }
   cells_.add_face(face, occluder_key(g_, face), front_only, on_edge(p), on_edge(q),
                   cell_sides_);

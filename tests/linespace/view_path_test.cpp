@@ -10,6 +10,7 @@
 
 #include "tests/support/generators.h"
 #include "tests/support/path_comparison.h"
+#include "tests/support/view_scenes.h"
 
 namespace sightline {
 namespace {
@@ -295,6 +296,43 @@ TEST(ViewPath, SeamsChangeNothing) {
   const Scene halves = sheets({{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}},
                                {{1, 0, 0}, {2, 0, 0}, {2, 0, 1}, {1, 0, 1}}});
   EXPECT_TRUE(walk(halves, eyes({{-1, -1, 0.5}, {3, -2, 3}})).changes.empty());
+}
+
+// The edge of a nearer sheet passes the seam of a wall, so that one half goes out of
+// sight without an event, and then all of the wall.
+TEST(ViewPath, ChangesAreThoseOfTheViewsThatAreTold) {
+  const Scene scene = sheets({{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}, {0, 0, 1}},
+                              {{1, 0, 0}, {2, 0, 0}, {2, 0, 1}, {1, 0, 1}},
+                              {{-9, -1, -9}, {1, -1, -9}, {1, -1, 9}, {-9, -1, 9}}});
+  const ViewPath found = walk(scene, eyes({{1.75, -2, 0.5}, {-0.5, -2, 0.5}}));
+  ASSERT_EQ(found.changes.size(), 1U);
+  ASSERT_EQ(found.stretches.size(), 2U);
+  EXPECT_EQ(found.stretches[0].view->facets.size(), 3U);
+  EXPECT_EQ(found.stretches[1].view->facets.size(), 1U);
+  EXPECT_EQ(found.changes[0].vanishes, (std::vector{0, 1}));
+}
+
+// On the ceiling of a room the eye passes the line of sight along the top of a column,
+// beside which nothing lies behind, to the room's corner.
+TEST(ViewPath, OnACeiling) {
+  const auto scenes = testing::view_scenes();
+  const auto house = std::ranges::find(scenes, "house 4", &testing::ViewScene::name);
+  ASSERT_NE(house, scenes.end());
+  const Scene scene(house->soup);
+  const Point from{1, 7, 3}, to{2, 2, 3};
+  const PathEvent corners{
+      PathEventKind::EV,
+      {vertex(point_at(scene, {0, 0, 3})), vertex(point_at(scene, {1, 2, 3}))}};
+  for (const double start : {0.0, 0.25, 0.7}) {
+    const ViewPath found = walk(scene, eyes({Point(from + start * (to - from)), to}));
+    int told = 0;
+    for (const PathChange& c : found.changes) {
+      if (std::ranges::find(c.events, corners) == c.events.end()) continue;
+      ++told;
+      EXPECT_NEAR(start + c.u * (1 - start), 5.0 / 7, 1e-12);
+    }
+    EXPECT_EQ(told, 1) << start;
+  }
 }
 
 TEST(ViewPath, WhereSegmentsMeet) {
