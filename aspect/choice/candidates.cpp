@@ -38,8 +38,9 @@ Candidates::Candidates(const PointViewIndex& index, const ViewpointRequest& requ
   std::set<int> seen;
   for (const SeenParts& view : views_)
     seen.insert(view.patches.begin(), view.patches.end());
+  const std::size_t most = taken_ + 4 * static_cast<std::size_t>(request_.samples);
   for (const PatchSide& side : sides) {
-    if (time_is_over()) return;
+    if (time_is_over() || taken_ > most) return;
     if (seen.contains(side.patch)) continue;
     const int found = look_at(side, place_on(*scene_, side), [&](const SeenParts& view) {
       return std::ranges::binary_search(view.patches, side.patch);
@@ -114,7 +115,7 @@ std::optional<SeenParts> Candidates::see(const Point& at) {
 int Candidates::improve(int i, const Worth& worth) {
   const bool sphere = request_.projection == Projection::Orthographic;
   const int faces = static_cast<int>(scene_->faces().size());
-  const int steps = std::clamp(100'000 / std::max(faces, 1), 40, 300);
+  const int steps = std::clamp(10'000 / std::max(faces, 1), 20, 250);
   std::optional<SeenParts> best;
   double value = worth(views_[i]);
   Point at = sphere ? Point(views_[i].point.normalized()) : views_[i].point;

@@ -18,7 +18,8 @@ namespace sightline::internal {
 class Candidates {
  public:
   /// Those of the certified aspect graph where there is one; else samples, the request's
-  /// first, and for each side that none of these sees further tries in front of it.
+  /// first, and for sides that none of these sees further tries in front of them, at most
+  /// four times as many as samples.
   /// `regions`: SeenParts::regions are wanted.
   Candidates(const PointViewIndex& index, const ViewpointRequest& request,
              const std::vector<PatchSide>& sides, bool regions);

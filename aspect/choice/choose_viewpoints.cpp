@@ -54,7 +54,7 @@ std::vector<int> best_of(const Candidates& candidates, const Candidates::Worth& 
 // Improves the best views, and their neighbours in rank, since one step on the way may
 // lead into another aspect.
 void improve_best(Candidates& candidates, const Candidates::Worth& worth, int faces) {
-  const int starts = std::clamp(2000 / std::max(faces, 1), 4, 10);
+  const int starts = std::clamp(600 / std::max(faces, 1), 2, 5);
   std::vector<int> from = best_of(candidates, worth, starts);
   const auto by_worth = [&] {
     std::vector<int> order(candidates.views().size());

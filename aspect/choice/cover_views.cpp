@@ -1,6 +1,7 @@
 // Few viewpoints that together see everything: cover_views().
 
 #include <algorithm>
+#include <boost/dynamic_bitset.hpp>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -46,9 +47,10 @@ class Coverer {
   [[nodiscard]] const std::vector<int>& seen() const { return seen_; }  // sides
   [[nodiscard]] const SetCover& cover() const { return cover_; }
 
-  // Chooses views for all that is wanted so far.  `lower`: so many are needed.
-  void choose(int lower) {
-    improve_greedily();
+  // Chooses views for all that is wanted so far.  `lower`: so many are needed.  `better`:
+  // better viewpoints are looked for before.
+  void choose(int lower, bool better) {
+    if (better) improve_greedily();
     std::vector<std::vector<int>> sets;
     for (const SeenParts& view : candidates_.views()) sets.push_back(held_by(view));
     constexpr std::size_t kSteps = 20'000;
@@ -179,27 +181,29 @@ class Coverer {
 std::vector<int> sides_apart(const Coverer& coverer, const Candidates& candidates,
                              const std::vector<PatchSide>& sides,
                              const SightProofs& proofs) {
+  // 1. By side the views that show it; what few show comes first.
   const std::vector<int>& seen = coverer.seen();
-  std::map<int, int> side_of;
-  for (const int s : seen) side_of[sides[s].patch] = s;
-  std::map<int, std::set<int>> together;
-  for (const SeenParts& view : candidates.views()) {
-    for (const int p : view.patches) {
-      for (const int q : view.patches) together[side_of[p]].insert(side_of[q]);
-    }
+  const std::size_t count = candidates.views().size();
+  std::map<int, boost::dynamic_bitset<>> shown_by;  // by patch
+  for (std::size_t v = 0; v < count; ++v) {
+    for (const int p : candidates.views()[v].patches)
+      shown_by.try_emplace(p, count).first->second.set(v);
   }
+  const auto shown = [&](int s) -> const auto& { return shown_by.at(sides[s].patch); };
   std::vector<int> order = seen;
-  std::ranges::stable_sort(order, {}, [&](int s) { return together[s].size(); });
+  std::ranges::stable_sort(order, {}, [&](int s) { return shown(s).count(); });
+  // 2. What no view shows together with those before may be apart from them.  Some
+  // seconds at most.
+  const int most_regions =
+      std::clamp(400'000 / static_cast<int>(sides.size()), 100, 3000);
   std::vector<int> out;
-  // Some seconds at most.
-  int regions = 60'000, failures = 200;
+  int failures = 60;
   for (const int s : order) {
-    const bool may =
-        std::ranges::none_of(out, [&](int other) { return together[s].contains(other); });
+    const bool may = std::ranges::none_of(
+        out, [&](int other) { return shown(s).intersects(shown(other)); });
     if (!may) continue;
-    const bool apart = std::ranges::all_of(out, [&](int other) {
-      return proofs.never_both(s, other, std::min(regions / 20, 3000));
-    });
+    const bool apart = std::ranges::all_of(
+        out, [&](int other) { return proofs.never_both(s, other, most_regions); });
     if (apart) {
       out.push_back(s);
     } else if (--failures == 0) {
@@ -250,7 +254,8 @@ ViewCover cover_views(const Scene& scene, const ViewpointRequest& request, Cover
   const bool by_area = goal == CoverGoal::Whole || share.has_value();
   const double allowed = goal == CoverGoal::Whole ? 0 : 1 - share.value_or(0);
   ViewpointRequest left = request;
-  left.budget_seconds -= deadline.seconds();
+  // Half of the time is for choosing among them.
+  left.budget_seconds = (left.budget_seconds - deadline.seconds()) / 2;
   Candidates candidates(index, left, sides, by_area);
   ViewCover out{};
   out.most_patches = std::numeric_limits<double>::infinity();
@@ -263,10 +268,10 @@ ViewCover cover_views(const Scene& scene, const ViewpointRequest& request, Cover
   out.patches = coverer.seen().size();
   out.complete = true;
   try {
-    const Stage stage(left, "cover", deadline);
+    const Stage stage(request, "cover", deadline);
     // 1. Few views that see some of all.
     out.lower_bound = 1;
-    coverer.choose(out.lower_bound);
+    coverer.choose(out.lower_bound, true);
     // 2. How many are needed at least.
     const ViewSpace space(scene, request);
     const SightProofs proofs(scene, space, sides);
@@ -282,7 +287,7 @@ ViewCover cover_views(const Scene& scene, const ViewpointRequest& request, Cover
     // 3. Places that the views miss are wanted, too.
     constexpr int kRounds = 40;
     for (int round = 0; by_area && round < kRounds && coverer.want_more(allowed); ++round)
-      coverer.choose(out.lower_bound);
+      coverer.choose(out.lower_bound, round % 8 == 7);
     // 4. What nobody sees.
     name_unseen(scene, candidates, sides, proofs, out);
   } catch (const Stopped&) {
