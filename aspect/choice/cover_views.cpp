@@ -53,9 +53,9 @@ class Coverer {
     if (better) improve_greedily();
     std::vector<std::vector<int>> sets;
     for (const SeenParts& view : candidates_.views()) sets.push_back(held_by(view));
-    constexpr std::size_t kSteps = 20'000;
-    cover_ =
-        least_cover(std::move(sets), static_cast<int>(wanted_.size()), lower, kSteps);
+    const std::size_t steps =
+        std::clamp<std::size_t>(2'000'000 / wanted_.size(), 200, 20'000);
+    cover_ = least_cover(std::move(sets), static_cast<int>(wanted_.size()), lower, steps);
   }
 
   // Places of which the chosen views show too little are wanted from now on; false if
@@ -131,8 +131,10 @@ class Coverer {
       for (const int w : held_by(view)) sum += left[w] ? 1 : 0;
       return sum;
     };
-    constexpr int kImproved = 12;
-    for (int k = 0; k < kImproved; ++k) {
+    // A view of a large scene takes a second.
+    const int improved =
+        std::clamp(6'000 / static_cast<int>(scene_.faces().size()), 1, 12);
+    for (int k = 0; k < improved; ++k) {
       const auto& views = candidates_.views();
       int best = 0;
       double most = -1;

@@ -28,7 +28,9 @@ class Search {
     for (int e = 0; e < elements; ++e) {
       Bits& bits = together_.emplace_back(elements);
       for (const int s : holders_[e]) bits |= sets_[s];
+      lonely_.push_back(e);
     }
+    std::ranges::stable_sort(lonely_, {}, [&](int e) { return together_[e].count(); });
   }
 
   SetCover run() {
@@ -69,16 +71,12 @@ class Search {
     }
   }
 
-  // Elements no two of which one set holds, the rarest first.
+  // Elements no two of which one set holds: first those that share sets with fewest.
   [[nodiscard]] int apart(Bits left) const {
     int count = 0;
-    while (left.any()) {
-      std::size_t rarest = left.find_first();
-      for (std::size_t e = rarest; e != Bits::npos; e = left.find_next(e)) {
-        if ((together_[e] & left).count() < (together_[rarest] & left).count())
-          rarest = e;
-      }
-      left -= together_[rarest];
+    for (const int e : lonely_) {
+      if (!left.test(e)) continue;
+      left -= together_[e];
       ++count;
     }
     return count;
@@ -114,6 +112,7 @@ class Search {
   std::vector<int> order_;                 // sets that no other holds, largest first
   std::vector<std::vector<int>> holders_;  // of each element
   std::vector<Bits> together_;             // with each element in some set
+  std::vector<int> lonely_;                // elements, those together with few first
   int lower_;
   std::size_t most_steps_, steps_ = 0;
   bool stopped_ = false;

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 
+#include "aspect/choice/apart.h"
 #include "aspect/choice/seen_parts.h"
 #include "aspect/choice/set_cover.h"
 #include "aspect/views/labels.h"
@@ -206,6 +208,22 @@ TEST(BestViews, OfAGroup) {
   EXPECT_EQ(best.bound, 3);
 }
 
+// From no direction are both of two sides seen that face each other.
+TEST(BestViews, OfTwoSidesThatFaceEachOther) {
+  const Scene scene = two_boxes();
+  auto request = of(Projection::Orthographic);
+  for (int f = 0; f < static_cast<int>(scene.faces().size()); ++f) {
+    const double x = scene.point(scene.face_points(f)[0])[0];
+    const bool across = std::ranges::all_of(
+        scene.face_points(f), [&](int p) { return scene.point(p)[0] == x; });
+    if (across && (x == 1 || x == 2)) request.of.push_back(f);
+  }
+  ASSERT_EQ(request.of.size(), 2u);
+  EXPECT_EQ(best_views(scene, request, ViewMeasure::Faces, 1).bound, 1);
+  request.projection = Projection::Perspective;
+  EXPECT_EQ(best_views(scene, request, ViewMeasure::Faces, 1).views[0].value, 2);
+}
+
 TEST(BestViews, Refusals) {
   EXPECT_THROW((void)best_views(cube(), {}, ViewMeasure::Entropy, 1), InvalidInput);
   EXPECT_THROW((void)best_views(cube(), {}, ViewMeasure::Faces, 0), InvalidInput);
@@ -245,6 +263,47 @@ TEST(CoverViews, OfACubeAndAnL) {
       }
     }
   }
+}
+
+// A post hides the middle of one box's side from the middle of others, and not all of it.
+TEST(SightProofs, NothingThatSomeViewShowsIsProvedUnseen) {
+  PolygonSoup soup;
+  add_box(soup, "a", {0, 0, 0}, {1, 1, 1});
+  add_box(soup, "post", {1.6, 0.3, -1}, {1.7, 0.7, 2});
+  add_box(soup, "b", {2.5, 0, 0}, {3.5, 1, 1});
+  const Scene scene(soup);
+  ViewpointRequest request = of(Projection::Perspective);
+  request.bounds = {Point(1.75, 0.2, 0.2), Point(2.2, 0.8, 0.8)};
+  const PointViewIndex index(scene);
+  const auto sides = internal::patch_sides(index, request);
+  const internal::ViewSpace space(scene, request);
+  const internal::SightProofs proofs(scene, space, sides);
+  std::set<std::array<int, 2>> together;  // patches
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> share;
+  for (int i = 0; i < 300; ++i) {
+    Point p;
+    for (int k = 0; k < 3; ++k) {
+      const double at = share(random);
+      p[k] = (1 - at) * (*request.bounds)[0][k] + at * (*request.bounds)[1][k];
+    }
+    const auto view = seen_parts(index, eye_at(p), request);
+    if (!view) continue;
+    for (const int a : view->patches) {
+      for (const int b : view->patches) together.insert({a, b});
+    }
+  }
+  int proved = 0;
+  const int n = static_cast<int>(sides.size());
+  for (int a = 0; a < n; ++a) {
+    for (int b = a; b < n; ++b) {
+      if (!proofs.never_both(a, b, 200)) continue;
+      ++proved;
+      EXPECT_FALSE(together.contains({sides[a].patch, sides[b].patch})) << a << ' ' << b;
+    }
+  }
+  EXPECT_GT(proved, 20);
+  EXPECT_GT(together.size(), 3u);
 }
 
 TEST(LeastCover, EqualsExhaustiveSearch) {
