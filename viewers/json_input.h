@@ -48,6 +48,9 @@ class JsonInput {
   /// A whole number from 0 on that an int holds.
   [[nodiscard]] int whole_number() const;
 
+  /// A string.
+  [[nodiscard]] std::string text() const;
+
   /// "FILE: segments[3][0]".
   [[nodiscard]] std::string told() const;
   /// Throws InvalidInput with this message about this element.

@@ -19,12 +19,7 @@ class Labeller {
   // Regions in which the wanted faces are seen.
   [[nodiscard]] bool counts(int region, const Scene& scene) const {
     if (of_.empty()) return true;
-    if (region < 0) return false;
-    return std::ranges::any_of(view_->regions[region].facets, [&](int facet) {
-      return std::ranges::any_of(scene.facets()[facet].faces, [&](int f) {
-        return std::ranges::binary_search(of_, f);
-      });
-    });
+    return region >= 0 && counts_of(view_->regions[region], scene, of_);
   }
 
   [[nodiscard]] std::string faces(const Scene& scene) const {
@@ -92,6 +87,21 @@ class Labeller {
 
 }  // namespace
 
+bool counts_of(const MapRegion& region, const Scene& scene, const std::vector<int>& of) {
+  if (of.empty()) return true;
+  return std::ranges::any_of(region.facets, [&](int facet) {
+    return std::ranges::any_of(scene.facets()[facet].faces,
+                               [&](int f) { return std::ranges::binary_search(of, f); });
+  });
+}
+
+std::string label_of(const PointView& view, const Scene& scene,
+                     const AspectRequest& request) {
+  const Labeller labeller(view, request);
+  if (request.label == AspectLabel::Faces) return labeller.faces(scene);
+  return request.of.empty() ? view.structure : labeller.structure_of_part(scene);
+}
+
 ViewLabels labels_of(const PointView& view, const Scene& scene,
                      const AspectRequest& request) {
   ViewLabels out;
@@ -102,11 +112,7 @@ ViewLabels labels_of(const PointView& view, const Scene& scene,
   for (const SeenFacet& f : view.facets) {
     if (out.facets.empty() || out.facets.back() != f.facet) out.facets.push_back(f.facet);
   }
-  if (request.label == AspectLabel::Faces) {
-    out.label = out.faces;
-  } else {
-    out.label = request.of.empty() ? out.structure : labeller.structure_of_part(scene);
-  }
+  out.label = label_of(view, scene, request);
   return out;
 }
 

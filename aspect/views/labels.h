@@ -28,6 +28,14 @@ struct ViewLabels {
                                                   const Viewpoint& at,
                                                   const AspectRequest& request);
 
+/// What the view is called alone: ViewLabels::label.
+[[nodiscard]] std::string label_of(const PointView& view, const Scene& scene,
+                                   const AspectRequest& request);
+
+/// In this region something is seen of these faces (ascending; none: of any).
+[[nodiscard]] bool counts_of(const MapRegion& region, const Scene& scene,
+                             const std::vector<int>& of);
+
 /// As a direction or an eye, whichever the projection asks for.
 [[nodiscard]] Viewpoint viewpoint_at(const Point& at, Projection projection);
 

@@ -127,6 +127,16 @@ std::vector<NumberOption> number_options() {
   all.push_back({"aspects", "--samples", samples, "#", "--budget 1"});
   const Numbers checks{.whole = true, .least = 0, .most = 1e8};
   all.push_back({"aspects", "--check", checks, "#", few + "--budget 1"});
+  const std::string best = few + "--best 1 ";
+  all.push_back({"viewpoints", "--threads", kThreads, "#", best});
+  all.push_back({"viewpoints", "--budget", kAboveZero, "#", best});
+  all.push_back({"viewpoints", "--seed", kSeed, "#", best});
+  all.push_back({"viewpoints", "--samples", samples, "#", "--best 1 --budget 1"});
+  const Numbers counts{.whole = true, .least = 1, .most = 1e5};
+  all.push_back({"viewpoints", "--best", counts, "#", few});
+  const Numbers shares{.least = 0, .least_too = false, .most = 1};
+  all.push_back(
+      {"viewpoints", "--fraction", shares, "#", few + "--cover parts --budget 1"});
   const Numbers lines{.whole = true, .least = 2, .most = 0x1p62};
   all.push_back({"formfactors", "--lines", lines, "#", "--budget 1"});
   all.push_back({"formfactors", "--seed", kSeed, "#", "--lines 1000"});
@@ -167,6 +177,7 @@ std::vector<NumberOption> number_options() {
   add("look", "--window", {"#,-2,2,2", "-2,#,2,2", "-2,-2,#,2", "-2,-2,2,#"});
   add("look", "--box", boxes);
   add("aspects", "--bounds", boxes, few);
+  add("viewpoints", "--bounds", boxes, best);
   add("view", "--box", boxes);
   add("view", "--eye", points);
   add("view", "--look-at", points, "--eye 7,8,9");
@@ -191,6 +202,7 @@ class NumberOptions : public sightline::test::Shell {
         {"formfactors", "formfactors s.obj --json -"},
         {"analyse", "analyse s.obj --json - -o out"},
         {"aspects", "aspects s.obj --projection perspective --method sampled --json -"},
+        {"viewpoints", "viewpoints s.obj --projection perspective --json -"},
         {"view", "view s.obj --png out.png"},
         {"transversals", "transversals t.json --json -"},
         {"stab", "stab p.json --json -"},
@@ -242,7 +254,7 @@ TEST_F(NumberOptions, AreAllOfThem) {
   std::set<std::string> told;
   for (const char* command :
        {"info", "look", "skeleton", "shadows", "formfactors", "aspects", "analyse",
-        "view", "transversals", "stab", "visible"}) {
+        "viewpoints", "view", "transversals", "stab", "visible"}) {
     const std::string help = shell("$S " + std::string(command) + " --help").out;
     const std::regex option(
         "\n +(?:-., ?)?(--[a-z-]+) (?:N|S|R|L|M|W|E|SIZE|WxH|INT\\S*|W,H|"
@@ -286,8 +298,8 @@ TEST_F(NumberOptions, LeaveTheFileBehindThemAlone) {
     std::string value = option.value;
     value.replace(
         value.find('#'), 1,
-        option.name == "--size" || option.name == "--pixels" ? "60"
-        : option.name == "--accuracy"                        ? "0.1"
+        option.name == "--size" || option.name == "--pixels"         ? "60"
+        : option.name == "--accuracy" || option.name == "--fraction" ? "0.1"
         : option.name == "--box" || option.name == "--window" || option.name == "--bounds"
             ? "0"
             : "2");
@@ -307,6 +319,7 @@ TEST_F(NumberOptions, LeaveTheFileBehindThemAlone) {
       {"look", "s.obj --from 7,8,9"},
       {"analyse", "s.obj -o out"},
       {"aspects", "s.obj --projection perspective --method sampled"},
+      {"viewpoints", "s.obj --projection perspective"},
       {"shadows", "s.obj --light b"},
       {"formfactors", "s.obj"},
       {"view", "s.obj --png out.png"},

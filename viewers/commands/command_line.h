@@ -111,6 +111,7 @@ Command add_analyse_command(CLI::App& app);
 Command add_stab_command(CLI::App& app);
 Command add_transversals_command(CLI::App& app);
 Command add_view_command(CLI::App& app);
+Command add_viewpoints_command(CLI::App& app);
 Command add_visible_command(CLI::App& app);
 
 }  // namespace sightline::viewers

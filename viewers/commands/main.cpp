@@ -92,6 +92,7 @@ int main(int argc, char** argv) {
   commands.emplace_back("stab", add_stab_command(app));
   commands.emplace_back("transversals", add_transversals_command(app));
   commands.emplace_back("view", add_view_command(app));
+  commands.emplace_back("viewpoints", add_viewpoints_command(app));
   commands.emplace_back("visible", add_visible_command(app));
   const ExitStatus status = run(session, app, commands, argc, argv);
   const std::string unwritten = standard_output_error();

@@ -91,6 +91,11 @@ Point JsonInput::point() const {
 
 bool JsonInput::is_null() const { return value_->is_null(); }
 
+std::string JsonInput::text() const {
+  if (!value_->is_string()) refuse("expected a string");
+  return value_->get<std::string>();
+}
+
 int JsonInput::whole_number() const {
   if (!value_->is_number_unsigned() ||
       value_->get<std::uint64_t>() > std::numeric_limits<int>::max()) {

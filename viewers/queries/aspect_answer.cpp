@@ -13,22 +13,6 @@ Json or_null(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-std::vector<int> polygons_of(const Scene& scene, const std::vector<int>& facets) {
-  std::set<int> out;
-  for (const int facet : facets) {
-    for (const int f : scene.facets()[facet].faces) out.insert(scene.faces()[f].source);
-  }
-  return {out.begin(), out.end()};
-}
-
-// Numbers where doubles say it all.
-Json position_json(const ExactPosition& at) {
-  Json out = Json::array();
-  for (int i = 0; i < 3; ++i)
-    out.push_back(at.is_double[i] ? Json(at.nearest[i]) : Json(at.exact[i]));
-  return out;
-}
-
 Json aspect_json(const Scene& scene, std::size_t id, const Aspect& aspect) {
   Json out{{"id", id},
            {"weight", or_null(aspect.weight)},
@@ -48,6 +32,14 @@ Json aspect_json(const Scene& scene, std::size_t id, const Aspect& aspect) {
 }
 
 }  // namespace
+
+std::vector<int> polygons_of(const Scene& scene, const std::vector<int>& facets) {
+  std::set<int> out;
+  for (const int facet : facets) {
+    for (const int f : scene.facets()[facet].faces) out.insert(scene.faces()[f].source);
+  }
+  return {out.begin(), out.end()};
+}
 
 std::string_view name(AspectMethod method) {
   constexpr std::string_view kNames[] = {"sampled", "refined", "exact"};
