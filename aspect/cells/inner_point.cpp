@@ -9,6 +9,8 @@
 #include <cmath>
 #include <optional>
 
+#include "linespace/space/cut_polyhedron.h"
+
 namespace sightline::internal {
 namespace {
 
@@ -189,6 +191,19 @@ InnerPoint inner_point(std::span<const SignedPlane> sides,
   const double at_rounded = least(rounded);
   if (at_rounded > 0) return {rounded, at_rounded};
   return {exact, least(exact)};
+}
+
+double volume_in(const std::array<Point, 2>& box, std::span<const SignedPlane> sides) {
+  CutPolyhedron part(exact_point(box[0]), exact_point(box[1]));
+  int number = 6;  // after the sides of the box
+  for (const auto& [plane, positive] : sides) {
+    const Rational sign(positive ? -1 : 1);
+    const auto& p = plane->exact;
+    const ExactPoint normal{sign * rational(p[0]), sign * rational(p[1]),
+                            sign * rational(p[2])};
+    part.cut({normal, -sign * rational(p[3])}, number++);
+  }
+  return nearest_double(part.volume());
 }
 
 }  // namespace sightline::internal
