@@ -109,11 +109,15 @@ class Disc {
 
   [[nodiscard]] ExactPoint exact_middle() const {
     ExactPoint sum;
+    // Of both ends of every arc: those from which the arcs start may be two vertices, and
+    // their sum on the boundary.
     for (const SphereArc& arc : arcs_) {
-      const auto v = exact_vertex(arc.wall->from);
-      Rational size = 0;
-      for (const Ring& x : v) size = std::max(size, Rational(abs(rational(x))));
-      for (int i = 0; i < 3; ++i) sum[i] += rational(v[i]) / size;
+      for (const SphereCells::Vertex& end : {arc.wall->from, arc.wall->to}) {
+        const auto v = exact_vertex(end);
+        Rational size = 0;
+        for (const Ring& x : v) size = std::max(size, Rational(abs(rational(x))));
+        for (int i = 0; i < 3; ++i) sum[i] += rational(v[i]) / size;
+      }
     }
     return sum;
   }

@@ -56,15 +56,17 @@ class EventCells {
 
   struct Wall {
     int negative, positive;  // cells
+    int surface;             // a circle or a plane
     int number;              // among walls of the sphere or of space
   };
   [[nodiscard]] std::vector<Wall> walls() const {
     std::vector<Wall> out;
-    const auto add = [&](const auto& all) {
+    const auto add = [&](const auto& all, auto surface) {
       for (const auto& w : all)
-        out.push_back({w.negative, w.positive, static_cast<int>(out.size())});
+        out.push_back({w.negative, w.positive, w.*surface, static_cast<int>(out.size())});
     };
-    sphere_ ? add(sphere_->walls) : add(space_->walls);
+    sphere_ ? add(sphere_->walls, &SphereCells::Wall::circle)
+            : add(space_->walls, &SpaceCells::Wall::plane);
     return out;
   }
   [[nodiscard]] const SignTable& table() const {
@@ -341,31 +343,42 @@ class GeneralGraph {
       aspect.structure = labels_[best]->structure;
     }
     std::map<std::array<int, 2>, std::set<AspectWall>> events;
-    for (std::size_t i = 0; const auto& found : events_of_walls(out)) {
-      if (const auto pair = between(walls_[i++]))
-        events[*pair].insert(found.begin(), found.end());
-    }
-    for (const auto& [pair, found] : events) {
-      const std::vector<AspectWall> told(found.begin(), found.end());
-      out.list[pair[0]].neighbours.push_back({pair[1], told});
-      out.list[pair[1]].neighbours.push_back({pair[0], told});
+    const auto told = one_wall_each();
+    const auto found = events_of(told, out);
+    for (std::size_t i = 0; i < told.size(); ++i)
+      events[*between(*told[i])].insert(found[i].begin(), found[i].end());
+    for (const auto& [pair, of_pair] : events) {
+      const std::vector<AspectWall> walls(of_pair.begin(), of_pair.end());
+      out.list[pair[0]].neighbours.push_back({pair[1], walls});
+      out.list[pair[1]].neighbours.push_back({pair[0], walls});
     }
     for (Aspect& aspect : out.list)
       std::ranges::sort(aspect.neighbours, {}, &AspectNeighbour::aspect);
   }
-  // What is lined up for an eye on each wall between two aspects.
-  [[nodiscard]] std::vector<std::vector<PathEvent>> events_of_walls(
-      AspectGraph& out) const {
-    std::vector<std::vector<PathEvent>> found(walls_.size());
+  // Of two aspects and the circle or plane between them one wall, by way of example.
+  [[nodiscard]] std::vector<const EventCells::Wall*> one_wall_each() const {
+    std::vector<const EventCells::Wall*> out;
+    std::set<std::array<int, 3>> known;
+    for (const EventCells::Wall& w : walls_) {
+      const auto pair = between(w);
+      if (pair && known.insert({(*pair)[0], (*pair)[1], w.surface}).second)
+        out.push_back(&w);
+    }
+    return out;
+  }
+  // What is lined up for an eye on each of these walls.
+  [[nodiscard]] std::vector<std::vector<PathEvent>> events_of(
+      const std::vector<const EventCells::Wall*>& walls, AspectGraph& out) const {
+    std::vector<std::vector<PathEvent>> found(walls.size());
     const Request left = deadline_->what_is_left(*request_);
     try {
       Stage stage(left, "events of walls");
-      for_each_of(0, walls_.size(), walls_.size(), left, stage, [&](std::size_t i) {
-        const EventCells::Wall& w = walls_[i];
-        if (!between(w)) return;
+      for_each_of(0, walls.size(), walls.size(), left, stage, [&](std::size_t i) {
+        const EventCells::Wall& w = *walls[i];
         const auto at = cells_.on_wall(w, inside_[w.negative].at, inside_[w.positive].at);
         if (!at) return;
-        found[i] = events_of(*scene_, index_.view(viewpoint_at_exactly(*at)), {}, {});
+        const PointView view = index_.view(viewpoint_at_exactly(*at));
+        found[i] = internal::events_of(*scene_, view, {}, {});
       });
     } catch (const Stopped&) {
       out.complete = out.certified = false;
