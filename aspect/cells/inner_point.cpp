@@ -9,6 +9,8 @@
 #include <cmath>
 #include <optional>
 
+#include "linespace/space/cut_polyhedron.h"
+
 namespace sightline::internal {
 namespace {
 
@@ -107,11 +109,15 @@ class Disc {
 
   [[nodiscard]] ExactPoint exact_middle() const {
     ExactPoint sum;
+    // Of both ends of every arc: those from which the arcs start may be two vertices, and
+    // their sum on the boundary.
     for (const SphereArc& arc : arcs_) {
-      const auto v = exact_vertex(arc.wall->from);
-      Rational size = 0;
-      for (const Ring& x : v) size = std::max(size, Rational(abs(rational(x))));
-      for (int i = 0; i < 3; ++i) sum[i] += rational(v[i]) / size;
+      for (const SphereCells::Vertex& end : {arc.wall->from, arc.wall->to}) {
+        const auto v = exact_vertex(end);
+        Rational size = 0;
+        for (const Ring& x : v) size = std::max(size, Rational(abs(rational(x))));
+        for (int i = 0; i < 3; ++i) sum[i] += rational(v[i]) / size;
+      }
     }
     return sum;
   }
@@ -189,6 +195,19 @@ InnerPoint inner_point(std::span<const SignedPlane> sides,
   const double at_rounded = least(rounded);
   if (at_rounded > 0) return {rounded, at_rounded};
   return {exact, least(exact)};
+}
+
+double volume_in(const std::array<Point, 2>& box, std::span<const SignedPlane> sides) {
+  CutPolyhedron part(exact_point(box[0]), exact_point(box[1]));
+  int number = 6;  // after the sides of the box
+  for (const auto& [plane, positive] : sides) {
+    const Rational sign(positive ? -1 : 1);
+    const auto& p = plane->exact;
+    const ExactPoint normal{sign * rational(p[0]), sign * rational(p[1]),
+                            sign * rational(p[2])};
+    part.cut({normal, -sign * rational(p[3])}, number++);
+  }
+  return nearest_double(part.volume());
 }
 
 }  // namespace sightline::internal

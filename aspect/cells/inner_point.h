@@ -43,4 +43,8 @@ struct InnerPoint {
 [[nodiscard]] InnerPoint inner_point(std::span<const SignedPlane> sides,
                                      const std::array<Point, 2>& box);
 
+/// Of what of the box lies in the cell.
+[[nodiscard]] double volume_in(const std::array<Point, 2>& box,
+                               std::span<const SignedPlane> sides);
+
 }  // namespace sightline::internal

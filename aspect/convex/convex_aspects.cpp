@@ -14,7 +14,6 @@
 #include "aspect/views/sample_space.h"
 #include "linespace/numbers/exact_position.h"
 #include "linespace/point_view.h"
-#include "linespace/space/cut_polyhedron.h"
 #include "linespace/work/parallel.h"
 
 namespace sightline::internal {
@@ -154,20 +153,6 @@ class ConvexCells {
 struct Pair {
   int a, b;
 };
-
-// Of what of the box lies in the cell.
-double volume_in(const std::array<Point, 2>& box, std::span<const SignedPlane> sides) {
-  CutPolyhedron part(exact_point(box[0]), exact_point(box[1]));
-  int number = 6;  // after the sides of the box
-  for (const auto& [plane, positive] : sides) {
-    const Rational sign(positive ? -1 : 1);
-    const auto& p = plane->exact;
-    const ExactPoint normal{sign * rational(p[0]), sign * rational(p[1]),
-                            sign * rational(p[2])};
-    part.cut({normal, -sign * rational(p[3])}, number++);
-  }
-  return nearest_double(part.volume());
-}
 
 class ConvexGraph {
  public:

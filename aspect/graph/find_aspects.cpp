@@ -2,6 +2,7 @@
 
 #include "aspect/aspect_graph.h"
 #include "aspect/convex/convex_aspects.h"
+#include "aspect/exact/general_aspects.h"
 #include "aspect/sampled/refined_aspects.h"
 #include "aspect/sampled/sampled_aspects.h"
 
@@ -24,7 +25,9 @@ AspectGraph find_aspects(const Scene& scene, const AspectRequest& request) {
     } else if (const auto solid = convex_solid(scene)) {
       return convex_aspects(scene, *solid, request);
     } else {
-      why = "exact graphs are of one convex solid so far";
+      auto found = general_aspects(scene, request);
+      if (auto* graph = std::get_if<AspectGraph>(&found)) return std::move(*graph);
+      why = std::get<std::string>(found);
     }
   }
   AspectGraph out = refined_aspects(scene, request);

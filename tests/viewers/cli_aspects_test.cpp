@@ -76,8 +76,9 @@ TEST_F(CliAspects, Sampled) {
 }
 
 TEST_F(CliAspects, WhatIsNotExactSaysWhy) {
-  std::ofstream(file("two.obj")) << "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no b\nv 0 0 "
-                                    "1\nv 1 0 1\nv 0 1 1\nf 4 5 6\n";
+  std::ofstream(file("two.obj"))
+      << "o a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no b\nv .2 .2 "
+         "-1\nv .2 .2 1\nv .3 1 .5\nf 4 5 6\n";
   const json j =
       answer(file("two.obj") + " --projection orthographic --samples 12 --list");
   EXPECT_EQ(j.at("method"), "refined");

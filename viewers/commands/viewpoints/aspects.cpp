@@ -147,8 +147,9 @@ Command add_aspects_command(CLI::App& app) {
   add_common_options(*command, *options);
   command->remove_option(command->get_option("--vtk"));  // there are none of these yet
   command->footer(
-      "An aspect is a connected region of viewpoints with one view.  Exact graphs are of "
-      "one convex\nsolid so far; of other scenes the graph is refined and says so. "
+      "An aspect is a connected region of viewpoints with one view.  Graphs of "
+      "scenes in\nwhich three edges come into one line of sight are refined so far, and "
+      "say so. "
       "Definitions and methods:\ndocs/aspects.md.\n"
       "Examples:\n"
       "  sightline aspects cube.obj --projection orthographic\n"
