@@ -246,6 +246,14 @@ void Scan::add_rays(std::span<const SectorAt> now, int position,
   }
 }
 
+// Whether all of the contact blocks.
+bool Scan::blocks(int contact) const {
+  blocked.resize(contact_to.size());
+  std::optional<bool>& known = blocked[static_cast<std::size_t>(contact)];
+  if (!known) known = judge(contact, nullptr, nullptr);
+  return *known;
+}
+
 // Whether the contact blocks the part of the line from lo to hi, or all of it.  First it
 // looks for a line at rest, then for an instant at which nothing passes, and only then
 // for a motion.
@@ -256,6 +264,8 @@ bool Scan::judge(int contact, const Rational* lo, const Rational* hi,
   const std::vector<Material> material =
       solid_behind != nullptr ? material_at_ends(contact, *lo, *hi, *solid_behind)
                               : std::vector<Material>{};
+  // Lines that pass all of a contact pass any part of it, but for that material.
+  if (lo != nullptr && material.empty() && !blocks(contact)) return false;
   // 1. The faces that are crossed: sectors, in order along the line.  One that is crossed
   // in its inside is met by every line nearby.
   Sectors crossed;

@@ -555,12 +555,7 @@ std::vector<Rational> LineScan::instants(int contact) const {
   return out;
 }
 
-bool LineScan::blocked(int contact) const {
-  if (impl_->blocked.empty()) impl_->blocked.resize(static_cast<std::size_t>(size()));
-  std::optional<bool>& known = impl_->blocked[static_cast<std::size_t>(contact)];
-  if (!known) known = impl_->judge(contact, nullptr, nullptr);
-  return *known;
-}
+bool LineScan::blocked(int contact) const { return impl_->blocks(contact); }
 
 bool LineScan::blocked_between(int contact, const Rational& lo,
                                const Rational& hi) const {

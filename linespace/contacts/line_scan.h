@@ -55,10 +55,10 @@ struct Scan {
   // ---- What it meets. ----
   std::vector<Corner> corners;
   mutable std::vector<Position> positions;
-  std::vector<Hit> hits;                     // by position `from` once sorted
-  std::vector<int> first_hit;                // of each contact, and the end
-  std::vector<int> contact_to;               // position
-  std::vector<std::optional<bool>> blocked;  // of each contact, once asked
+  std::vector<Hit> hits;                             // by position `from` once sorted
+  std::vector<int> first_hit;                        // of each contact, and the end
+  std::vector<int> contact_to;                       // position
+  mutable std::vector<std::optional<bool>> blocked;  // of each contact, once asked
   std::vector<int> loops;  // corner ids of faces in a plane with L, face by face
   // Scratch of the first stage, per corner of a face.
   std::vector<double> u_scratch;
@@ -101,6 +101,7 @@ struct Scan {
       return compare_slopes(p, q, position);
     };
   }
+  [[nodiscard]] bool blocks(int contact) const;
   bool judge(int contact, const Rational* lo, const Rational* hi,
              const std::function<bool(int)>* solid_behind = nullptr) const;
 

@@ -123,13 +123,7 @@ void SceneBuilder::classify_edges() {
   DeclaredFlat declared;
   for (std::size_t i = 0; i < half_edges.size();) {
     stage.at(i, half_edges.size());
-    // The half-edges of one object between the same two points are one mesh edge.
-    std::size_t end = i + 1;
-    while (end < half_edges.size() && half_edges[end].low == half_edges[i].low &&
-           half_edges[end].high == half_edges[i].high &&
-           half_edges[end].object == half_edges[i].object) {
-      ++end;
-    }
+    const std::size_t end = i + same_edge(half_edges, i).size();
     i = pass_diagonals(i, end, regions);
     const int count = static_cast<int>(end - i);
     if (count == 0) continue;

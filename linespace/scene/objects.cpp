@@ -186,19 +186,12 @@ void SceneBuilder::describe_objects() {
   // By component: used equally often in both directions, edge by edge.
   std::vector<std::uint8_t> balanced(scene.faces_.size(), 1);
   for (std::size_t i = 0; i < half_edges.size();) {
-    const HalfEdge& e = half_edges[i];
-    int balance = 0;
-    std::size_t j = i;
-    for (; j < half_edges.size() && half_edges[j].low == e.low &&
-           half_edges[j].high == e.high && half_edges[j].object == e.object;
-         ++j) {
-      balance += half_edges[j].forward ? 1 : -1;
+    const auto edge = same_edge(half_edges, i);
+    if (!is_balanced(edge)) {
+      balanced[sets.find(edge[0].face)] = 0;
+      scene.objects_[edge[0].object].closed = false;
     }
-    if (balance != 0) {
-      balanced[sets.find(e.face)] = 0;
-      scene.objects_[e.object].closed = false;
-    }
-    i = j;
+    i += edge.size();
   }
   for (std::size_t f = 0; f < scene.faces_.size(); ++f) {
     const int i = static_cast<int>(f);

@@ -2,7 +2,9 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <iterator>
 #include <numeric>
 #include <span>
 #include <string>
@@ -73,6 +75,25 @@ struct HalfEdge {
   bool forward;   ///< the face runs from low to high
   bool diagonal;  ///< a cut inside a polygon of the file
 };
+
+/// The half-edges of one object between the same two points, from position `first` on:
+/// those that follow each other.
+[[nodiscard]] inline std::span<const HalfEdge> same_edge(std::span<const HalfEdge> sorted,
+                                                         std::size_t first) {
+  const HalfEdge& e = sorted[first];
+  std::size_t end = first + 1;
+  while (end < sorted.size() && sorted[end].low == e.low && sorted[end].high == e.high &&
+         sorted[end].object == e.object) {
+    ++end;
+  }
+  return sorted.subspan(first, end - first);
+}
+
+/// Faces run along the edge equally often in both directions: so it is at all edges of a
+/// closed surface.
+[[nodiscard]] inline bool is_balanced(std::span<const HalfEdge> edge) {
+  return 2 * std::ranges::count(edge, true, &HalfEdge::forward) == std::ssize(edge);
+}
 
 /// An edge of the mesh: `count` half-edges of one object from `first` on.
 struct MeshEdge {

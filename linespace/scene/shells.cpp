@@ -178,17 +178,10 @@ std::vector<std::vector<Faces>> shells_of(const Scene& scene,
   DisjointSets sets(scene.faces().size());
   std::vector<std::uint8_t> closed(scene.objects().size(), 1);
   for (std::size_t i = 0; i < half_edges.size();) {
-    const HalfEdge& e = half_edges[i];
-    int balance = 0;
-    std::size_t j = i;
-    for (; j < half_edges.size() && half_edges[j].low == e.low &&
-           half_edges[j].high == e.high && half_edges[j].object == e.object;
-         ++j) {
-      balance += half_edges[j].forward ? 1 : -1;
-      sets.unite(half_edges[j].face, e.face);
-    }
-    if (balance != 0) closed[e.object] = 0;
-    i = j;
+    const auto edge = same_edge(half_edges, i);
+    for (const HalfEdge& e : edge) sets.unite(e.face, edge[0].face);
+    if (!is_balanced(edge)) closed[edge[0].object] = 0;
+    i += edge.size();
   }
   std::vector<std::vector<Faces>> shells(scene.objects().size());
   std::vector<int> number(scene.faces().size(), -1);

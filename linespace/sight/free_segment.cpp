@@ -100,9 +100,8 @@ bool meets_segment(const LineScan& scan, int contact) {
 }
 
 bool blocks_segment(const Silhouettes& g, const LineScan& scan, int contact) {
-  // Lines near a contact that pass all of it pass any part: no part is looked at then.
-  if (!scan.blocked(contact)) return false;
-  if (scan.from_against(contact, 0) >= 0 && scan.to_against(contact, 1) <= 0) return true;
+  if (scan.from_against(contact, 0) >= 0 && scan.to_against(contact, 1) <= 0)
+    return scan.blocked(contact);
   Rational low = -1;
   Rational high = 2;
   for (const Rational& t : scan.instants(contact)) {
