@@ -199,7 +199,7 @@ std::vector<int> sides_apart(const Coverer& coverer, const Candidates& candidate
   const int most_regions =
       std::clamp(400'000 / static_cast<int>(sides.size()), 100, 3000);
   std::vector<int> out;
-  int failures = 60;
+  int failures = std::clamp(60'000 / static_cast<int>(sides.size()), 4, 60);
   for (const int s : order) {
     const bool may = std::ranges::none_of(
         out, [&](int other) { return shown(s).intersects(shown(other)); });
@@ -223,7 +223,7 @@ void name_unseen(const Scene& scene, const Candidates& candidates,
   for (const SeenParts& view : candidates.views())
     seen.insert(view.facets.begin(), view.facets.end());
   std::map<int, bool> unseen;  // by facet: proved
-  int proofs_left = 500;
+  int proofs_left = std::clamp(500'000 / static_cast<int>(sides.size()), 10, 500);
   for (std::size_t s = 0; s < sides.size(); ++s) {
     hear_stop();
     for (const int facet : sides[s].facets) {
@@ -277,15 +277,16 @@ ViewCover cover_views(const Scene& scene, const ViewpointRequest& request, Cover
     // 2. How many are needed at least.
     const ViewSpace space(scene, request);
     const SightProofs proofs(scene, space, sides);
-    for (const int s : sides_apart(coverer, candidates, sides, proofs))
-      out.apart.push_back(sides[s].facets[0]);
     double reached = 0;
     for (const SeenParts& view : candidates.views())
       reached = std::max(reached, view.value[static_cast<int>(ViewMeasure::Faces)]);
     out.most_patches = measure_bound(index, request, sides, ViewMeasure::Faces, reached);
     const auto by_number =
         static_cast<int>(std::ceil(static_cast<double>(out.patches) / out.most_patches));
-    out.lower_bound = std::max({1, static_cast<int>(out.apart.size()), by_number});
+    out.lower_bound = std::max(1, by_number);
+    for (const int s : sides_apart(coverer, candidates, sides, proofs))
+      out.apart.push_back(sides[s].facets[0]);
+    out.lower_bound = std::max(out.lower_bound, static_cast<int>(out.apart.size()));
     // 3. Places that the views miss are wanted, too.
     constexpr int kRounds = 40;
     for (int round = 0; by_area && round < kRounds && coverer.want_more(allowed); ++round)
