@@ -111,6 +111,15 @@ class Circles {
 
 }  // namespace
 
+CircleNormal normal_of(const LightPlane& plane) {
+  CircleNormal out;
+  for (int i = 0; i < 3; ++i) {
+    out.near[i] = plane.near[i];
+    out.exact[i] = plane.exact[i];
+  }
+  return out;
+}
+
 SphereCells sphere_cells(std::span<const CircleNormal> normals) {
   return Circles(normals).find();
 }

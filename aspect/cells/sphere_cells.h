@@ -19,6 +19,8 @@ struct CircleNormal {
   std::array<Approx, 3> near;
   std::array<Ring, 3> exact;
 };
+/// Of the circle parallel to the plane.
+[[nodiscard]] CircleNormal normal_of(const LightPlane& plane);
 
 struct SphereCells {
   /// By circle: positive where a direction has a positive product with its normal.

@@ -75,6 +75,15 @@ ChosenView chosen(const SeenParts& view, double value) {
   return {view.at, view.facets, value};
 }
 
+// No view yet, and no bound.
+BestViews none_of(const Candidates& candidates) {
+  return {{},
+          std::numeric_limits<double>::infinity(),
+          candidates.certified(),
+          candidates.taken(),
+          candidates.complete()};
+}
+
 double best_bound(const PointViewIndex& index, const ViewpointRequest& request,
                   const std::vector<PatchSide>& sides, const Candidates& candidates,
                   ViewMeasure measure, double reached, const Deadline& deadline) {
@@ -107,11 +116,7 @@ BestViews best_views(const Scene& scene, const ViewpointRequest& request,
     return view.value[static_cast<int>(measure)];
   };
   improve_best(candidates, worth, static_cast<int>(scene.faces().size()));
-  BestViews out{{},
-                std::numeric_limits<double>::infinity(),
-                candidates.certified(),
-                candidates.taken(),
-                candidates.complete()};
+  BestViews out = none_of(candidates);
   for (const int i : best_of(candidates, worth, count))
     out.views.push_back(chosen(candidates.views()[i], worth(candidates.views()[i])));
   out.bound = best_bound(index, request, sides, candidates, measure,
@@ -138,11 +143,7 @@ BestViews next_view(const Scene& scene, const ViewpointRequest& request,
         view.patches, [&](int patch) { return !known.contains(patch); }));
   };
   improve_best(candidates, worth, static_cast<int>(scene.faces().size()));
-  BestViews out{{},
-                std::numeric_limits<double>::infinity(),
-                candidates.certified(),
-                candidates.taken(),
-                candidates.complete()};
+  BestViews out = none_of(candidates);
   for (const int i : best_of(candidates, worth, 1)) {
     const SeenParts& view = candidates.views()[i];
     if (worth(view) > 0) out.views.push_back(chosen(view, worth(view)));

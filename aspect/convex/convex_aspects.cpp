@@ -8,6 +8,7 @@
 #include <unordered_set>
 
 #include "aspect/cells/inner_point.h"
+#include "aspect/cells/space_bounds.h"
 #include "aspect/cells/space_cells.h"
 #include "aspect/cells/sphere_cells.h"
 #include "aspect/sampled/sampled_aspects.h"
@@ -28,7 +29,7 @@ class ConvexCells {
       sphere_.emplace(sphere_cells(normals_));
     } else {
       planes_ = solid.planes;
-      if (request.bounds) add_bounds(*request.bounds);
+      if (request.bounds) bounds_ = add_bounds(planes_, *request.bounds);
       space_.emplace(space_cells(planes_, request));
     }
   }
@@ -40,10 +41,7 @@ class ConvexCells {
   /// The cell lies within the bounds, if there are any, and is not the solid itself.
   [[nodiscard]] bool counts(int cell) const {
     if (sphere_) return true;
-    const auto in = [&](const Bound& b) {
-      return space_->cells.positive(cell, b.plane) == b.positive;
-    };
-    if (!std::ranges::all_of(bounds_, in)) return false;
+    if (!within(space_->cells, cell, bounds_)) return false;
     for (std::size_t f = 0; f < solid_->planes.size(); ++f) {
       if (space_->cells.positive(cell, static_cast<int>(f))) return true;
     }
@@ -73,47 +71,9 @@ class ConvexCells {
     bool opposite;  // to the normal of the circle's first facet
   };
 
-  // The side of a plane on which the box lies.
-  struct Bound {
-    int plane;
-    bool positive;
-  };
-
-  void add_bounds(const std::array<Point, 2>& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const int side : {0, 1}) {
-        LightPlane plane;
-        for (int i = 0; i < 4; ++i) {
-          const double x = i == axis ? 1 : i == 3 ? -box[side][axis] : 0;
-          plane.near[i] = {x, 0};
-          plane.exact[i] = Ring(x);
-        }
-        bounds_.push_back({with_plane(plane, axis), side == 0});
-        // A facet in that plane may face the other way.
-        const auto& n = planes_[bounds_.back().plane].exact[axis];
-        if (sign_of(n) == Sign::Negative) bounds_.back().positive = side != 0;
-      }
-    }
-  }
-  // Across an axis: the number of that plane, which may be a facet's.
-  int with_plane(const LightPlane& plane, int axis) {
-    for (std::size_t i = 0; i < planes_.size(); ++i) {
-      const auto& p = planes_[i].exact;
-      bool same = p[3] == plane.exact[3] * p[axis];
-      for (int k = 0; k < 3; ++k) same = same && is_zero(p[k]) == (k != axis);
-      if (same) return static_cast<int>(i);
-    }
-    planes_.push_back(plane);
-    return static_cast<int>(planes_.size()) - 1;
-  }
-
   void find_circles() {
     for (const LightPlane& plane : solid_->planes) {
-      CircleNormal n;
-      for (int i = 0; i < 3; ++i) {
-        n.near[i] = plane.near[i];
-        n.exact[i] = plane.exact[i];
-      }
+      CircleNormal n = normal_of(plane);
       int same = -1;
       for (std::size_t c = 0; c < normals_.size() && same < 0; ++c) {
         if (parallel(normals_[c], n)) same = static_cast<int>(c);
@@ -145,7 +105,7 @@ class ConvexCells {
   std::vector<CircleNormal> normals_;
   std::vector<Circle> circles_;     // by facet
   std::vector<LightPlane> planes_;  // of facets, then of bounds
-  std::vector<Bound> bounds_;
+  std::vector<BoundSide> bounds_;
   std::optional<SphereCells> sphere_;
   std::optional<SpaceCells> space_;
 };

@@ -86,15 +86,6 @@ bool for_each_plane(const Scene& scene, With&& with) {
 
 }  // namespace
 
-CircleNormal normal_of(const LightPlane& plane) {
-  CircleNormal out;
-  for (int i = 0; i < 3; ++i) {
-    out.near[i] = plane.near[i];
-    out.exact[i] = plane.exact[i];
-  }
-  return out;
-}
-
 std::optional<std::vector<LightPlane>> event_planes(const Scene& scene,
                                                     std::size_t most) {
   std::map<std::vector<Rational>, int> known;
@@ -117,20 +108,6 @@ std::optional<std::vector<CircleNormal>> event_circles(const Scene& scene,
     return out.size() <= most;
   });
   return all ? std::optional(std::move(out)) : std::nullopt;
-}
-
-PlaneNumber add_plane(std::vector<LightPlane>& planes, const LightPlane& plane) {
-  const auto wanted = up_to_scale(plane.exact, 3);
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    if (up_to_scale(planes[i].exact, 3) != wanted) continue;
-    for (int k = 0; k < 3; ++k) {
-      if (is_zero(plane.exact[k])) continue;
-      return {static_cast<int>(i),
-              sign_of(plane.exact[k]) == sign_of(planes[i].exact[k])};
-    }
-  }
-  planes.push_back(plane);
-  return {static_cast<int>(planes.size()) - 1, true};
 }
 
 bool span_space(std::span<const CircleNormal> normals) {

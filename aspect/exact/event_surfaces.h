@@ -24,16 +24,7 @@ namespace sightline::internal {
 [[nodiscard]] std::optional<std::vector<CircleNormal>> event_circles(const Scene& scene,
                                                                      std::size_t most);
 
-/// Adds a plane unless it is there; its number, and whether it faces the same way as the
-/// one there.
-struct PlaneNumber {
-  int plane;
-  bool same_way;
-};
-PlaneNumber add_plane(std::vector<LightPlane>& planes, const LightPlane& plane);
-
 /// The planes' normals span space.
 [[nodiscard]] bool span_space(std::span<const CircleNormal> normals);
-[[nodiscard]] CircleNormal normal_of(const LightPlane& plane);
 
 }  // namespace sightline::internal

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "aspect/cells/inner_point.h"
+#include "aspect/cells/space_bounds.h"
 #include "aspect/cells/space_cells.h"
 #include "aspect/cells/sphere_cells.h"
 #include "aspect/exact/event_surfaces.h"
@@ -46,7 +47,7 @@ class EventCells {
     auto planes = event_planes(scene, kMostPlanes);
     if (!planes) return std::nullopt;
     out.planes_ = std::move(*planes);
-    if (request.bounds) out.add_bounds(*request.bounds);
+    if (request.bounds) out.bounds_ = add_bounds(out.planes_, *request.bounds);
     std::vector<CircleNormal> normals;
     for (const LightPlane& p : out.planes_) normals.push_back(normal_of(p));
     if (!span_space(normals)) return std::nullopt;
@@ -73,9 +74,7 @@ class EventCells {
     return sphere_ ? sphere_->cells : space_->cells;
   }
   [[nodiscard]] bool in_bounds(int cell) const {
-    return std::ranges::all_of(bounds_, [&](const Bound& b) {
-      return space_->cells.positive(cell, b.plane) == b.positive;
-    });
+    return !space_ || within(space_->cells, cell, bounds_);
   }
   [[nodiscard]] bool unbounded(int cell) const {
     return space_ && space_->unbounded[cell];
@@ -133,27 +132,6 @@ class EventCells {
   }
 
  private:
-  // The side of a plane on which the bounds lie.
-  struct Bound {
-    int plane;
-    bool positive;
-  };
-
-  void add_bounds(const std::array<Point, 2>& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const int side : {0, 1}) {
-        LightPlane plane;
-        for (int i = 0; i < 4; ++i) {
-          const double x = i == axis ? 1 : i == 3 ? -box[side][axis] : 0;
-          plane.near[i] = {x, 0};
-          plane.exact[i] = Ring(x);
-        }
-        const auto [number, same_way] = add_plane(planes_, plane);
-        bounds_.push_back({number, same_way == (side == 0)});
-      }
-    }
-  }
-
   // Arcs are shorter than half a turn: the sum of their ends is between them.
   [[nodiscard]] ExactPoint on_arc(const SphereCells::Wall& w) const {
     ExactPoint sum{};
@@ -188,7 +166,7 @@ class EventCells {
 
   std::vector<CircleNormal> normals_;
   std::vector<LightPlane> planes_;  // of events, then of bounds
-  std::vector<Bound> bounds_;
+  std::vector<BoundSide> bounds_;
   std::optional<SphereCells> sphere_;
   std::optional<SpaceCells> space_;
   std::vector<std::vector<SphereArc>> arcs_;

@@ -11,6 +11,7 @@
 #include "linespace/point_view.h"
 #include "tests/support/add_box.h"
 #include "tests/support/add_polygons.h"
+#include "tests/support/prism.h"
 
 namespace sightline {
 namespace {
@@ -18,25 +19,15 @@ namespace {
 using testing::add_box;
 using testing::add_polygons;
 
-using Outline = std::vector<std::array<double, 2>>;
+using testing::Outline;
 
 // The prism of height 1.2 over a polygon; of a mirrored one its mirror image.
-void add_prism(PolygonSoup& soup, const Outline& outline, bool mirrored = false) {
-  std::vector<Point> low, high;
-  for (const auto& [x, y] : outline) {
-    low.emplace_back(mirrored ? -x : x, y, 0);
-    high.emplace_back(mirrored ? -x : x, y, 1.2);
-  }
+void add_prism(PolygonSoup& soup, Outline outline, bool mirrored = false) {
   if (mirrored) {
-    std::ranges::reverse(low);
-    std::ranges::reverse(high);
+    std::ranges::reverse(outline);
+    for (auto& corner : outline) corner[0] = -corner[0];
   }
-  std::vector<std::vector<Point>> faces{{low.rbegin(), low.rend()}, high};
-  for (std::size_t i = 0; i < low.size(); ++i) {
-    const std::size_t j = (i + 1) % low.size();
-    faces.push_back({low[i], low[j], high[j], high[i]});
-  }
-  add_polygons(soup, "prism", faces);
+  add_polygons(soup, "prism", testing::prism(outline, 0, 1.2));
 }
 
 Scene prism(const Outline& outline, bool mirrored = false) {
@@ -45,7 +36,7 @@ Scene prism(const Outline& outline, bool mirrored = false) {
   return Scene(soup);
 }
 
-const Outline kL{{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2.5}, {0, 2.5}};
+const Outline kL = testing::kLetterL;
 const Outline kT{{1, 0},      {2, 0},   {2, 1.5}, {3.25, 1.5},
                  {3.25, 2.5}, {0, 2.5}, {0, 1.5}, {1, 1.5}};
 const Outline kU{{0, 0}, {3, 0}, {3, 2.5}, {2, 2.5}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};

@@ -5,6 +5,7 @@
 #include "aspect/aspect_graph.h"
 #include "tests/support/add_box.h"
 #include "tests/support/add_polygons.h"
+#include "tests/support/prism.h"
 
 namespace sightline {
 namespace {
@@ -14,21 +15,8 @@ using testing::add_polygons;
 
 /// An L of thickness 1.2: one reflex edge.
 Scene letter() {
-  const double z = 1.2;
-  const std::vector<std::array<double, 2>> outline{{0, 0}, {3, 0},   {3, 1},
-                                                   {1, 1}, {1, 2.5}, {0, 2.5}};
-  std::vector<Point> low, high;
-  for (const auto& [x, y] : outline) {
-    low.emplace_back(x, y, 0);
-    high.emplace_back(x, y, z);
-  }
-  std::vector<std::vector<Point>> faces{{low.rbegin(), low.rend()}, high};
-  for (std::size_t i = 0; i < low.size(); ++i) {
-    const std::size_t j = (i + 1) % low.size();
-    faces.push_back({low[i], low[j], high[j], high[i]});
-  }
   PolygonSoup soup;
-  add_polygons(soup, "L", faces);
+  add_polygons(soup, "L", testing::prism(testing::kLetterL, 0, 1.2));
   return Scene(soup);
 }
 

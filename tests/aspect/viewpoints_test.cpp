@@ -16,6 +16,7 @@
 #include "aspect/views/labels.h"
 #include "tests/support/add_box.h"
 #include "tests/support/add_polygons.h"
+#include "tests/support/prism.h"
 
 namespace sightline {
 namespace {
@@ -28,23 +29,6 @@ using testing::add_polygons;
 
 constexpr double kPi = std::numbers::pi;
 
-// Walls of thickness 0 over the sides of a floor plan, with floor and ceiling; fronts
-// outwards of what lies left of the outline.
-std::vector<std::vector<Point>> prism(const std::vector<std::array<double, 2>>& outline,
-                                      double z0, double z1) {
-  std::vector<Point> low, high;
-  for (const auto& [x, y] : outline) {
-    low.emplace_back(x, y, z0);
-    high.emplace_back(x, y, z1);
-  }
-  std::vector<std::vector<Point>> faces{{low.rbegin(), low.rend()}, high};
-  for (std::size_t i = 0; i < low.size(); ++i) {
-    const std::size_t j = (i + 1) % low.size();
-    faces.push_back({low[i], low[j], high[j], high[i]});
-  }
-  return faces;
-}
-
 Scene cube() {
   PolygonSoup soup;
   add_box(soup, "cube", {0, 0, 0}, {1, 1, 1});
@@ -53,8 +37,7 @@ Scene cube() {
 
 Scene letter() {
   PolygonSoup soup;
-  add_polygons(soup, "L",
-               prism({{0, 0}, {3, 0}, {3, 1}, {1, 1}, {1, 2.5}, {0, 2.5}}, 0, 1.2));
+  add_polygons(soup, "L", testing::prism(testing::kLetterL, 0, 1.2));
   return Scene(soup);
 }
 
@@ -80,7 +63,7 @@ Scene room_with_niches(int niches) {
       outline.push_back({x + dx, y});
   }
   outline.push_back({width, 0});
-  std::vector<std::vector<Point>> faces = prism(outline, 0, kHeight);
+  std::vector<std::vector<Point>> faces = testing::prism(outline, 0, kHeight);
   for (auto& face : faces) std::ranges::reverse(face);  // it is a hollow
   PolygonSoup soup;
   add_box(soup, "outside", {-1, -kDepth - 1, -1}, {width + 1, kRoom + 1, kHeight + 1});

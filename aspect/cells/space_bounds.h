@@ -1,0 +1,28 @@
+// A box as a part of space that planes cut: some cells lie within it.
+
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "aspect/cells/sign_table.h"
+#include "linespace/light/homogeneous.h"
+
+namespace sightline::internal {
+
+/// The side of a plane on which the box lies.
+struct BoundSide {
+  int plane;
+  bool positive;
+};
+
+/// Adds the planes of the box's sides to planes that differ, where they are not there.
+[[nodiscard]] std::vector<BoundSide> add_bounds(std::vector<LightPlane>& planes,
+                                                const std::array<Point, 2>& box);
+
+/// Of a cell of these planes.
+[[nodiscard]] bool within(const SignTable& cells, int cell,
+                          std::span<const BoundSide> bounds);
+
+}  // namespace sightline::internal
