@@ -116,9 +116,20 @@ class Stopping : public ::testing::Test {
 
   /// There was no question yet, or its answer is written, incomplete or not.
   [[nodiscard]] bool is_answered(const Run& r) const {
-    static const std::set<std::string> kBefore{
-        "reading", "vertices", "faces",          "objects", "sides",
-        "shells",  "edges",    "straight edges", "solids",  "looking for defects"};
+    static const std::set<std::string> kBefore{"reading",
+                                               "vertices",
+                                               "faces",
+                                               "objects",
+                                               "sides",
+                                               "shells",
+                                               "edges",
+                                               "straight edges",
+                                               "solids",
+                                               "looking for defects",
+                                               "planes",
+                                               "corners' faces",
+                                               "corners in solids",
+                                               "edges' faces"};
     const std::string mark = "in stage: ";
     const std::size_t at = r.err.find(mark);
     if (r.status == 3 && at == std::string::npos) return true;  // before the first stage
