@@ -117,8 +117,8 @@ struct AspectGraph {
 /// Throws InvalidInput for bounds without a volume, and for samples below 1; Stopped.
 /// Cost: exact, of one convex solid of n facets, n^2 log n for directions and n^3 log n
 /// for points; exact, of another scene, the same for n planes of corners with edges, and
-/// a view for each cell; sampled, a view (point_view.h) for each sample; refined, also a path
-/// (view_path.h) for each pair of neighbouring viewpoints with different labels.
+/// a view for each cell; sampled, a view (point_view.h) for each sample; refined, also a
+/// path (view_path.h) for each pair of neighbouring viewpoints with different labels.
 [[nodiscard]] AspectGraph find_aspects(const Scene& scene, const AspectRequest& request);
 
 }  // namespace sightline

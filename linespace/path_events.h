@@ -45,8 +45,9 @@ struct PathChange {
   double u;  ///< within 2^-50
   /// All events at this position, at least one, ascending.
   std::vector<PathEvent> events;
-  /// Facets of which area is seen after and not before, and the other way round; front
-  /// and back of a facet count as two.  Ascending.
+  /// Facets of which area is seen after and not before, and the other way round: in the
+  /// views of the stretches beside it (within one, facets of a patch may come and go
+  /// without an event).  Front and back of a facet count as two.  Ascending.
   std::vector<int> appears, vanishes;
   MapCounts difference;  ///< after less before
 };

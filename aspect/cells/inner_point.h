@@ -43,7 +43,7 @@ struct InnerPoint {
 [[nodiscard]] InnerPoint inner_point(std::span<const SignedPlane> sides,
                                      const std::array<Point, 2>& box);
 
-/// Of what of the box lies in the cell.
+/// The volume of the part of the box that lies in the cell.
 [[nodiscard]] double volume_in(const std::array<Point, 2>& box,
                                std::span<const SignedPlane> sides);
 

@@ -17,11 +17,13 @@ struct BoundSide {
   bool positive;
 };
 
-/// Adds the planes of the box's sides to planes that differ, where they are not there.
+/// Adds the planes of the box's six sides to `planes`, no two of which are the same,
+/// unless they are among them; which side of each is the box's.
 [[nodiscard]] std::vector<BoundSide> add_bounds(std::vector<LightPlane>& planes,
                                                 const std::array<Point, 2>& box);
 
-/// Of a cell of these planes.
+/// Whether a cell of these planes lies in the box; `cells` is their table, `bounds` what
+/// add_bounds() said.
 [[nodiscard]] bool within(const SignTable& cells, int cell,
                           std::span<const BoundSide> bounds);
 

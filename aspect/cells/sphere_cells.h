@@ -19,7 +19,7 @@ struct CircleNormal {
   std::array<Approx, 3> near;
   std::array<Ring, 3> exact;
 };
-/// Of the circle parallel to the plane.
+/// The normal of the great circle parallel to the plane.
 [[nodiscard]] CircleNormal normal_of(const LightPlane& plane);
 
 struct SphereCells {

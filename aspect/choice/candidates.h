@@ -17,9 +17,9 @@ namespace sightline::internal {
 /// Views, and ways to come by better ones.  Keeps a reference to the index.
 class Candidates {
  public:
-  /// Those of the certified aspect graph where there is one; else samples, the request's
-  /// first, and for sides that none of these sees further tries in front of them, at most
-  /// four times as many as samples.
+  /// Takes the viewpoints of the certified aspect graph where there is one.  Else takes
+  /// those the request begins with and samples; and for sides that none of these sees
+  /// tries viewpoints in front of them, at most four times as many as samples.
   /// `regions`: SeenParts::regions are wanted.
   Candidates(const PointViewIndex& index, const ViewpointRequest& request,
              const std::vector<PatchSide>& sides, bool regions);

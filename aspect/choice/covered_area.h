@@ -18,14 +18,16 @@ class PatchArea {
   ~PatchArea();
   PatchArea(PatchArea&&) noexcept;
 
-  /// Of the patch this is left no more.
+  /// The region is seen: it is no longer among what is left of the patch.
   void take_away(const SeenRegion& region);
-  /// Of what is left, the share of the whole patch.  Less than kGrain is nothing.
+  /// What is left, as a share of the whole patch.  Less than kGrain is nothing.
   [[nodiscard]] double left() const;
-  static constexpr double kGrain = 1e-7;
+  /// Corners are rounded to 2^-29 of the patch's extent, so that an edge across it moves
+  /// by less than 2^-28 of its square: some thirty edges may leave as much as this.
+  static constexpr double kGrain = 0x1p-23;
   /// A point well inside the largest of the pieces into which what is left is cut.
   [[nodiscard]] Point place_left() const;
-  /// That piece is no more asked for.
+  /// The piece of place_left() counts as seen from now on, though no view shows it.
   void give_up_place();
 
  private:

@@ -8,6 +8,7 @@
 
 #include "aspect/viewpoints.h"
 #include "linespace/point_view.h"
+#include "linespace/predicates.h"
 
 namespace sightline::internal {
 
@@ -35,7 +36,7 @@ struct PatchSide {
 /// difference of two products of differences: with unit roundoff u = 2^-53 its error is
 /// below 7 u (1 + u)^6 times the sum of the products' magnitudes.  A plane's value adds
 /// three products of it with differences: below 16 u of the sum of magnitudes.
-inline constexpr double kSlack = 32 * 0x1p-53;
+inline constexpr double kSlack = 32 * kUnit;
 
 /// The sides that somebody outside closed objects may see, of patches with a wanted face;
 /// what faces into the material of its own object is left out.  By group, then by rank.

@@ -36,7 +36,9 @@ class OntoPlane {
   // far.
   [[nodiscard]] Point operator()(const Point& p) const {
     const double height = plane_.normal.dot(p - plane_.on);
-    constexpr double kInPlane = 1e-12;  // what rounding the point may have made
+    // A vertex is rounded in its last place, and so is the normal, times twice the ratio
+    // of the first three corners' length and width: allowed are ratios up to 2^10.
+    constexpr double kInPlane = 0x1p-40;
     const double size = (p - plane_.on).norm() + p.cwiseAbs().maxCoeff();
     if (std::abs(height) <= kInPlane * size) return p;
     const Eigen::Vector3d along = is_eye_ ? Eigen::Vector3d(p - eye_) : eye_;

@@ -36,7 +36,8 @@ struct SeenParts {
                                                   const ViewpointRequest& request,
                                                   bool regions = false);
 
-/// The same of a viewpoint that is asked about: on an event or on the scene, too.
+/// What a view shows that is there already, also one on an event or on the scene; its
+/// label stays empty.
 [[nodiscard]] SeenParts parts_of(const PointView& view, const Scene& scene,
                                  const ViewpointRequest& request, bool regions);
 

@@ -53,9 +53,11 @@ class RegionMeasure {
     const bool far = region.high[3] == 0;
     std::vector<double> weights;
     for (const int s : possible) weights.push_back(weight(region, s, far));
+    // A weight has eight roundings at most, and a sum one for each of its terms.
+    const double up = 1 + kUnit * (16 + 2 * static_cast<double>(weights.size()));
     if (measure_ == ViewMeasure::Entropy) {
-      for (double& w : weights) w /= 4 * kPi;
-      return most_entropy(std::move(weights));
+      for (double& w : weights) w *= up / (4 * kPi);
+      return up * most_entropy(std::move(weights));
     }
     double sum = most_together(sides_, possible, weights, far);
     if (measure_ == ViewMeasure::SolidAngle && !far)
@@ -63,7 +65,7 @@ class RegionMeasure {
     if (measure_ == ViewMeasure::SolidAngle && far)
       sum = std::min(sum, by_mean_normal(region, possible));
     // Sums of counts are exact.
-    return measure_ == ViewMeasure::Faces ? sum : sum * (1 + 1e-12);
+    return measure_ == ViewMeasure::Faces ? sum : sum * up;
   }
 
  private:

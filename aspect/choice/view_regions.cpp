@@ -113,7 +113,7 @@ Point ViewSpace::middle(const ViewRegion& region) const {
   Point x;
   for (int i = 0; i < 3; ++i) x[i] = region.low[i] * 0.49 + region.high[i] * 0.51;
   const double w = (region.low[3] + region.high[3]) / 2;
-  constexpr double kFar = 1e-3;
+  constexpr double kFar = 0x1p-10;  // instead of 0: only a place to look from
   return centre_ + size_ * x / std::max(w, kFar);
 }
 
@@ -126,7 +126,8 @@ double ViewSpace::most_sine(const ViewRegion& region, const PatchSide& side) con
     squared += near * near;
   }
   const double length = side.normal.norm() * std::sqrt(squared) * size_;
-  return std::clamp((r.most + r.error) / length * (1 + 1e-14), 0.0, 1.0);
+  // Two lengths, their product and a quotient: eight roundings at most.
+  return std::clamp((r.most + r.error) / length * (1 + 16 * kUnit), 0.0, 1.0);
 }
 
 double ViewSpace::least_distance(const ViewRegion& region, const Point& low,
@@ -142,10 +143,20 @@ double ViewSpace::least_distance(const ViewRegion& region, const Point& low,
     };
     const double from = centre_[i] + size_ * over(region.low[i], true);
     const double to = centre_[i] + size_ * over(region.high[i], false);
-    const double gap = std::max({from - high[i], low[i] - to, 0.0});
+    // A quotient, a product, a sum and the difference round, each by a unit of a size
+    // that is one of these.
+    const auto rounding = [&](double end, double other) {
+      return 8 * kUnit * (2 * std::abs(centre_[i]) + std::abs(end) + std::abs(other));
+    };
+    double gap = 0;
+    if (std::isfinite(from)) gap = from - high[i] - rounding(from, high[i]);
+    if (std::isfinite(to)) gap = std::max(gap, low[i] - to - rounding(to, low[i]));
+    if (from == kInfinite || to == -kInfinite) return kInfinite;
+    gap = std::max(gap, 0.0);
     squared += gap * gap;
   }
-  return std::sqrt(squared) * (1 - 1e-12);
+  // Three squares, two sums and a root.
+  return std::sqrt(squared) * (1 - 8 * kUnit);
 }
 
 double bound_over(const ViewSpace& space, const std::vector<PatchSide>& sides,

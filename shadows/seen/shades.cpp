@@ -69,42 +69,43 @@ class Cone {
 
 // The part of a face before the source's plane; sides: of its corners, some before the
 // plane and some beyond it.
-Blocker cut_face(const SourceScene& source, const SourcePlane& plane, int face,
-                 const std::vector<Sign>& sides) {
+HidingFace cut_face(const SourceScene& source, const SourcePlane& plane, int face,
+                    const std::vector<Sign>& sides) {
   const auto corners = source.scene().scene().face_points(face);
   const auto n = static_cast<int>(corners.size());
-  Blocker blocker{.face = face};
+  HidingFace hiding{.face = face};
   const auto crossing = [&](int p, int q) { return source.crossing(plane, p, q); };
   for (int k = 0; k < n; ++k) {
     const int next = (k + 1) % n;
     const bool goes_on = sides[next] != Sign::Negative;
     if (sides[k] == Sign::Negative) {
       if (sides[next] == Sign::Positive) {
-        blocker.cut[1] = crossing(corners[k], corners[next]);
-        blocker.part.push_back({Blocker::kEntering, k});
+        hiding.cut[1] = crossing(corners[k], corners[next]);
+        hiding.part.push_back({HidingFace::kEntering, k});
       } else if (sides[next] == Sign::Zero) {
-        blocker.cut_ends[1] = corners[next];
+        hiding.cut_ends[1] = corners[next];
       }
       continue;
     }
     const bool leaves_here = !goes_on && sides[k] == Sign::Zero;
-    blocker.part.push_back({corners[k], leaves_here ? -1 : k});
-    if (leaves_here) blocker.cut_ends[0] = corners[k];
+    hiding.part.push_back({corners[k], leaves_here ? -1 : k});
+    if (leaves_here) hiding.cut_ends[0] = corners[k];
     if (goes_on || leaves_here) continue;
-    blocker.cut[0] = crossing(corners[k], corners[next]);
-    blocker.part.push_back({Blocker::kLeaving, -1});
+    hiding.cut[0] = crossing(corners[k], corners[next]);
+    hiding.part.push_back({HidingFace::kLeaving, -1});
   }
-  return blocker;
+  return hiding;
 }
 
 }  // namespace
 
-std::vector<Blocker> find_blockers(const SourceScene& source, const SourcePlane& plane,
-                                   const Point& rounded_point) {
+std::vector<HidingFace> find_hiding_faces(const SourceScene& source,
+                                          const SourcePlane& plane,
+                                          const Point& rounded_point) {
   const ViewScene& view = source.scene();
   const Scene& scene = view.scene();
   const Cone cone(plane, rounded_point);
-  std::vector<Blocker> blockers;
+  std::vector<HidingFace> hiding_faces;
   const auto visit = [&](std::uint32_t item) {
     const int face = static_cast<int>(item);
     if (cone.misses(view.silhouettes().face_box(face))) return;
@@ -117,13 +118,13 @@ std::vector<Blocker> find_blockers(const SourceScene& source, const SourcePlane&
       beyond |= sides.back() == Sign::Negative;
     }
     if (!before) return;
-    blockers.push_back(beyond ? cut_face(source, plane, face, sides)
-                              : Blocker{.face = face});
+    hiding_faces.push_back(beyond ? cut_face(source, plane, face, sides)
+                                  : HidingFace{.face = face});
   };
   view.silhouettes().face_tree().traverse(
       [&](const Box& box) { return !cone.misses(box); }, visit);
-  std::ranges::sort(blockers, {}, &Blocker::face);
-  return blockers;
+  std::ranges::sort(hiding_faces, {}, &HidingFace::face);
+  return hiding_faces;
 }
 
 Shade ShadeMaker::of_face(int face) const {
@@ -139,20 +140,20 @@ Shade ShadeMaker::of_face(int face) const {
   return shade;
 }
 
-Shade ShadeMaker::of_part(const Blocker& blocker, int cut_point, int cut_line) const {
-  const bool front = eye_->front(blocker.face) == Sign::Positive;
-  const auto number = [&](const Blocker::Corner& c) {
-    return c.point >= 0 ? c.point : cut_point + (c.point == Blocker::kLeaving ? 0 : 1);
+Shade ShadeMaker::of_part(const HidingFace& hiding, int cut_point, int cut_line) const {
+  const bool front = eye_->front(hiding.face) == Sign::Positive;
+  const auto number = [&](const HidingFace::Corner& c) {
+    return c.point >= 0 ? c.point : cut_point + (c.point == HidingFace::kLeaving ? 0 : 1);
   };
   Shade shade;
-  const std::size_t n = blocker.part.size();
+  const std::size_t n = hiding.part.size();
   for (std::size_t k = 0; k < n; ++k) {
-    const Blocker::Corner& corner = blocker.part[k];
-    const std::array<int, 2> ends{number(corner), number(blocker.part[(k + 1) % n])};
+    const HidingFace::Corner& corner = hiding.part[k];
+    const std::array<int, 2> ends{number(corner), number(hiding.part[(k + 1) % n])};
     shade.sides.push_back({front ? ends : std::array{ends[1], ends[0]},
                            corner.side < 0
                                ? cut_line
-                               : eye_->scene().line_of_side(blocker.face, corner.side)});
+                               : eye_->scene().line_of_side(hiding.face, corner.side)});
   }
   return shade;
 }
@@ -201,13 +202,13 @@ bool ShadeMaker::is_convex(const Shade& shade) const {
   });
 }
 
-std::vector<Shade> ShadeMaker::shades(const std::vector<Blocker>& blockers,
+std::vector<Shade> ShadeMaker::shades(const std::vector<HidingFace>& hiding_faces,
                                       int first_cut_point, int first_cut_line) const {
   const ViewScene& view = eye_->scene();
   const Scene& scene = view.scene();
   // Solids of which a face is cut are asked face by face.
   std::map<int, bool> whole;
-  for (const Blocker& b : blockers) {
+  for (const HidingFace& b : hiding_faces) {
     const int object = scene.faces()[b.face].object;
     if (!view.silhouettes().convex_solid(object)) continue;
     const auto it = whole.try_emplace(object, true).first;
@@ -216,7 +217,7 @@ std::vector<Shade> ShadeMaker::shades(const std::vector<Blocker>& blockers,
   std::map<int, bool> done;  // solids, and whether their shade is one
   std::vector<Shade> shades;
   int cuts = 0;
-  for (const Blocker& b : blockers) {
+  for (const HidingFace& b : hiding_faces) {
     const int number = b.part.empty() ? -1 : cuts++;
     if (eye_->front(b.face) == Sign::Zero) continue;
     const int object = scene.faces()[b.face].object;

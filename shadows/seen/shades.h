@@ -26,7 +26,7 @@ struct Shade {
 };
 
 /// A face that may hide, as it is before any eye asks.
-struct Blocker {
+struct HidingFace {
   int face;
   /// Where the face crosses the source's plane, the part before it: its corners,
   /// counter-clockwise as seen from the face's front, each with the side of the face on
@@ -43,12 +43,12 @@ struct Blocker {
 
 /// Faces of which some part may lie strictly between the point and the plane of the
 /// source, in the cone over the source.  Some that do not may be among them.
-[[nodiscard]] std::vector<Blocker> find_blockers(const SourceScene& source,
-                                                 const SourcePlane& plane,
-                                                 const Point& rounded_point);
+[[nodiscard]] std::vector<HidingFace> find_hiding_faces(const SourceScene& source,
+                                                        const SourcePlane& plane,
+                                                        const Point& rounded_point);
 
-/// Makes shades of blockers as an eye sees them.  Faces that it sees edge-on hide nothing
-/// and are left out, and so are backs of convex solids whose fronts are there.
+/// Makes shades of hiding faces as an eye sees them.  Faces that it sees edge-on hide
+/// nothing and are left out, and so are backs of convex solids whose fronts are there.
 class ShadeMaker {
  public:
   /// all_lines: Shade::further_lines are asked for.
@@ -56,15 +56,16 @@ class ShadeMaker {
              bool all_lines)
       : eye_(&eye), source_(&source), plane_(&plane), all_lines_(all_lines) {}
 
-  /// Of the blockers that are cut number i (from 0) has its two ends at the points
+  /// Of the hiding faces that are cut number i (from 0) has its two ends at the points
   /// first_cut_point + 2 i and + 1 of the eye's scene, and its cut on the line
   /// first_cut_line + i.
-  [[nodiscard]] std::vector<Shade> shades(const std::vector<Blocker>& blockers,
+  [[nodiscard]] std::vector<Shade> shades(const std::vector<HidingFace>& hiding_faces,
                                           int first_cut_point, int first_cut_line) const;
 
  private:
   [[nodiscard]] Shade of_face(int face) const;
-  [[nodiscard]] Shade of_part(const Blocker& blocker, int cut_point, int cut_line) const;
+  [[nodiscard]] Shade of_part(const HidingFace& hiding, int cut_point,
+                              int cut_line) const;
   [[nodiscard]] std::optional<Shade> of_solid(int object) const;
   [[nodiscard]] bool is_convex(const Shade& shade) const;
 

@@ -18,16 +18,17 @@ ExactPoint short_way(const ExactPoint& from, const ExactPoint& to) {
 
 SourceView::SourceView(const Question& question)
     : question_(question), scene_(question.source->scene()) {
-  std::vector<Blocker> blockers;
+  std::vector<HidingFace> hiding_faces;
   if (question.hide) {
-    blockers = find_blockers(*question.source, *question.plane, question.eye.at.nearest);
+    hiding_faces =
+        find_hiding_faces(*question.source, *question.plane, question.eye.at.nearest);
   }
-  // What this eye adds to the scene: where blockers cut the plane, and the horizon.
+  // What this eye adds to the scene: where hiding faces cut the plane, and the horizon.
   std::vector<ExactPoint> points;
   std::vector<std::array<int, 2>> lines;
   const int first_point = scene_.point_count();
   first_cut_line_ = static_cast<int>(scene_.lines().size());
-  for (Blocker& b : blockers) {
+  for (HidingFace& b : hiding_faces) {
     if (b.part.empty()) continue;
     std::array<int, 2> ends = b.cut_ends;
     for (int i = 0; i < 2; ++i) {
@@ -47,8 +48,8 @@ SourceView::SourceView(const Question& question)
   eye_.emplace(scene_, question.eye);
   ask_star();
   if (any_hidden_) return;
-  if (question.all_lines) find_edge_on(blockers);
-  find_shades(blockers, first_point);
+  if (question.all_lines) find_edge_on(hiding_faces);
+  find_shades(hiding_faces, first_point);
   if (any_hidden_) return;
   for (const Line& line : lines_to_ask()) view(line);
 }
@@ -169,8 +170,8 @@ bool SourceView::covers_all(const Shade& shade) const {
   });
 }
 
-void SourceView::find_edge_on(const std::vector<Blocker>& blockers) {
-  for (const Blocker& b : blockers) {
+void SourceView::find_edge_on(const std::vector<HidingFace>& hiding_faces) {
+  for (const HidingFace& b : hiding_faces) {
     if (eye_->front(b.face) != Sign::Zero) continue;
     bool positive = false, negative = false;
     for (const auto& sides : question_.plane->sides) {
@@ -184,7 +185,8 @@ void SourceView::find_edge_on(const std::vector<Blocker>& blockers) {
   }
 }
 
-void SourceView::find_shades(const std::vector<Blocker>& blockers, int first_cut_point) {
+void SourceView::find_shades(const std::vector<HidingFace>& hiding_faces,
+                             int first_cut_point) {
   for (const auto& sides : question_.plane->sides) {
     Shade& shade = shades_.emplace_back();
     for (const SourcePlane::Side& side : sides)
@@ -192,7 +194,7 @@ void SourceView::find_shades(const std::vector<Blocker>& blockers, int first_cut
   }
   source_shades_ = shades_.size();
   const ShadeMaker maker(*eye_, *question_.source, *question_.plane, question_.all_lines);
-  for (Shade& shade : maker.shades(blockers, first_cut_point, first_cut_line_)) {
+  for (Shade& shade : maker.shades(hiding_faces, first_cut_point, first_cut_line_)) {
     bool near = false;
     for (std::size_t i = 0; i < source_shades_ && !near; ++i)
       near = !apart(shade, shades_[i]);

@@ -24,7 +24,7 @@ class SourceView {
     const Horizon* horizon = nullptr;
     /// Of the same eye; nullptr for an eye that is not on the scene.
     const EyeStar* star = nullptr;
-    bool hide = true;        ///< false: as if there were no blockers
+    bool hide = true;        ///< false: as if nothing stood before the source
     bool all_lines = false;  ///< also those that are only seen in line with others
   };
   explicit SourceView(const Question& question);
@@ -38,7 +38,8 @@ class SourceView {
   /// The piece is of a side of a facet that the eye is on, in line with what bounds the
   /// part seen: itself beyond the source, or a side of a sheet, it hides nothing.
   [[nodiscard]] bool only_carries(int piece) const { return only_carries_[piece]; }
-  /// The first line of cuts of blockers with the plane, cut i being of face cut_face(i).
+  /// The first line of cuts of hiding faces with the plane, cut i being of face
+  /// cut_face(i).
   [[nodiscard]] int first_cut_line() const { return first_cut_line_; }
   [[nodiscard]] int cut_face(int i) const { return cut_faces_[i]; }
   /// Faces that the eye sees edge-on, with parts of the source on both sides, that lie in
@@ -70,8 +71,8 @@ class SourceView {
                    std::vector<std::array<int, 2>>& lines);
   [[nodiscard]] bool horizon_hides_all() const;
   void ask_star();
-  void find_edge_on(const std::vector<Blocker>& blockers);
-  void find_shades(const std::vector<Blocker>& blockers, int first_cut_point);
+  void find_edge_on(const std::vector<HidingFace>& hiding_faces);
+  void find_shades(const std::vector<HidingFace>& hiding_faces, int first_cut_point);
   [[nodiscard]] bool apart(const Shade& shade, const Shade& of_source) const;
   [[nodiscard]] bool covers_all(const Shade& shade) const;
   [[nodiscard]] std::vector<Line> lines_to_ask() const;

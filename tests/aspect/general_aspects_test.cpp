@@ -11,7 +11,7 @@
 #include "linespace/point_view.h"
 #include "tests/support/add_box.h"
 #include "tests/support/add_polygons.h"
-#include "tests/support/prism.h"
+#include "tests/support/aspect_scenes.h"
 
 namespace sightline {
 namespace {

@@ -4,28 +4,14 @@
 
 #include "aspect/aspect_graph.h"
 #include "tests/support/add_box.h"
-#include "tests/support/add_polygons.h"
-#include "tests/support/prism.h"
+#include "tests/support/aspect_scenes.h"
 
 namespace sightline {
 namespace {
 
 using testing::add_box;
-using testing::add_polygons;
-
-/// An L of thickness 1.2: one reflex edge.
-Scene letter() {
-  PolygonSoup soup;
-  add_polygons(soup, "L", testing::prism(testing::kLetterL, 0, 1.2));
-  return Scene(soup);
-}
-
-Scene two_boxes() {
-  PolygonSoup soup;
-  add_box(soup, "a", {0, 0, 0}, {1, 1, 1});
-  add_box(soup, "b", {2, 0.3, 0.2}, {3, 1.5, 1.7});
-  return Scene(soup);
-}
+using testing::letter;
+using testing::two_boxes;
 
 AspectGraph graph_by(const Scene& scene, AspectMethod method, int samples,
                      Projection projection = Projection::Orthographic) {

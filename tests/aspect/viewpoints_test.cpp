@@ -15,8 +15,7 @@
 #include "aspect/choice/set_cover.h"
 #include "aspect/views/labels.h"
 #include "tests/support/add_box.h"
-#include "tests/support/add_polygons.h"
-#include "tests/support/prism.h"
+#include "tests/support/aspect_scenes.h"
 
 namespace sightline {
 namespace {
@@ -25,26 +24,14 @@ using internal::least_cover;
 using internal::seen_parts;
 using internal::SeenParts;
 using testing::add_box;
-using testing::add_polygons;
+using testing::letter;
+using testing::two_boxes;
 
 constexpr double kPi = std::numbers::pi;
 
 Scene cube() {
   PolygonSoup soup;
   add_box(soup, "cube", {0, 0, 0}, {1, 1, 1});
-  return Scene(soup);
-}
-
-Scene letter() {
-  PolygonSoup soup;
-  add_polygons(soup, "L", testing::prism(testing::kLetterL, 0, 1.2));
-  return Scene(soup);
-}
-
-Scene two_boxes() {
-  PolygonSoup soup;
-  add_box(soup, "a", {0, 0, 0}, {1, 1, 1});
-  add_box(soup, "b", {2, 0.3, 0.2}, {3, 1.5, 1.7});
   return Scene(soup);
 }
 
@@ -147,7 +134,7 @@ int soak_views() {
 }
 
 // No random view beats a bound, nor the best by more than 1 %.
-void compare_with_random(const Scene& scene, const ViewpointRequest& request, int views) {
+void expect_none_better(const Scene& scene, const ViewpointRequest& request, int views) {
   const PointViewIndex index(scene);
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
@@ -176,9 +163,9 @@ void compare_with_random(const Scene& scene, const ViewpointRequest& request, in
 
 TEST(BestViews, NoRandomViewIsBetter) {
   for (const Projection p : {Projection::Orthographic, Projection::Perspective}) {
-    compare_with_random(cube(), of(p), soak_views());
-    compare_with_random(letter(), of(p), soak_views());
-    compare_with_random(two_boxes(), of(p), soak_views());
+    expect_none_better(cube(), of(p), soak_views());
+    expect_none_better(letter(), of(p), soak_views());
+    expect_none_better(two_boxes(), of(p), soak_views());
   }
 }
 

@@ -27,15 +27,17 @@ void add_file_argument(CLI::App& app, CommonOptions& options, const std::string&
   app.add_option("FILE", options.scene, help)->required();
 }
 
-void add_common_options(CLI::App& app, CommonOptions& options) {
+void add_common_options(CLI::App& app, CommonOptions& options, bool has_vtk) {
   app.add_option("--json", options.json,
                  "write the answer as JSON to FILE; '-' is standard output, and then "
                  "nothing else goes there")
       ->type_name("FILE");
-  app.add_option(
-         "--vtk", options.vtk,
-         "write VTK files into the folder DIR; open DIR/sightline.vtm in ParaView")
-      ->type_name("DIR");
+  if (has_vtk) {
+    app.add_option(
+           "--vtk", options.vtk,
+           "write VTK files into the folder DIR; open DIR/sightline.vtm in ParaView")
+        ->type_name("DIR");
+  }
   app.add_option(
          "--threads", options.threads,
          "number of threads; 0 means one per core (default 0); the answer does not "

@@ -50,8 +50,8 @@ void add_scene_argument(CLI::App& app, CommonOptions& options, bool required = t
 void add_format_option(CLI::App& app, CommonOptions& options);
 /// FILE, for commands that are asked of a JSON file instead of a scene.
 void add_file_argument(CLI::App& app, CommonOptions& options, const std::string& help);
-/// --json, --vtk, --threads, --precision, --budget.
-void add_common_options(CLI::App& app, CommonOptions& options);
+/// --json, --vtk unless there are no such files, --threads, --precision, --budget.
+void add_common_options(CLI::App& app, CommonOptions& options, bool has_vtk = true);
 void add_budget_option(CLI::App& app, double& seconds);
 /// --budget-mb, in bytes; stays as it is when not given.
 void add_size_budget_option(CLI::App& app, std::size_t& bytes);

@@ -352,8 +352,7 @@ Command add_formfactors_command(CLI::App& app) {
   add_scene_argument(*command, *options);
   add_surface_options(*command, *options);
   add_answer_options(*command, *options);
-  add_common_options(*command, *options);
-  command->remove_option(command->get_option("--vtk"));  // a matrix has no VTK files
+  add_common_options(*command, *options, false);
   command->footer(
       "Surfaces send out and receive by their fronts; all faces of the scene block.  Row "
       "i "

@@ -144,8 +144,7 @@ Command add_aspects_command(CLI::App& app) {
       ->check(whole_number(0, 100'000'000));
   command->add_flag("--list", options->list,
                     "add \"list\": a viewpoint, weight, faces and neighbours of each");
-  add_common_options(*command, *options);
-  command->remove_option(command->get_option("--vtk"));  // there are none of these yet
+  add_common_options(*command, *options, false);
   command->footer(
       "An aspect is a connected region of viewpoints with one view.  Graphs of "
       "scenes in\nwhich three edges come into one line of sight are refined so far, and "

@@ -245,8 +245,7 @@ Command add_viewpoints_command(CLI::App& app) {
   add_scene_argument(*command, *options);
   add_question_options(*command, *options);
   add_space_options(*command, *options);
-  add_common_options(*command, *options);
-  command->remove_option(command->get_option("--vtk"));  // there are none of these yet
+  add_common_options(*command, *options, false);
   command->footer(
       "Viewpoints are searched for; each is verified by its exact view. Bounds are "
       "proved: \"bound\",\nwhat no view exceeds; \"lower_bound\", how many viewpoints "

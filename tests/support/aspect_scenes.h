@@ -1,4 +1,5 @@
-// Upright prisms over an outline, for scenes that tests write down by hand.
+// Small scenes that tests of aspects and viewpoints share: upright prisms, an L, two
+// boxes.
 
 #pragma once
 
@@ -6,6 +7,8 @@
 #include <vector>
 
 #include "linespace/scene.h"
+#include "tests/support/add_box.h"
+#include "tests/support/add_polygons.h"
 
 namespace sightline::testing {
 
@@ -29,6 +32,21 @@ inline std::vector<std::vector<Point>> prism(const Outline& outline, double z0,
     faces.push_back({low[i], low[j], high[j], high[i]});
   }
   return faces;
+}
+
+/// An L of thickness 1.2: one reflex edge.
+inline Scene letter() {
+  PolygonSoup soup;
+  add_polygons(soup, "L", prism(kLetterL, 0, 1.2));
+  return Scene(soup);
+}
+
+/// Boxes "a" and "b", apart and in no common plane.
+inline Scene two_boxes() {
+  PolygonSoup soup;
+  add_box(soup, "a", {0, 0, 0}, {1, 1, 1});
+  add_box(soup, "b", {2, 0.3, 0.2}, {3, 1.5, 1.7});
+  return Scene(soup);
 }
 
 }  // namespace sightline::testing
