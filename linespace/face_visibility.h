@@ -61,13 +61,13 @@ class FaceVisibility {
   [[nodiscard]] FacePairAnswer between(int a, int b,
                                        const VisibilityRequest& request = {}) const;
 
-  /// Whether some face of `as` sees some face of `bs`, not counting segments that begin
-  /// or end in a convex solid which the other face does not reach into: the face's own,
-  /// or one glued to all of it (a room, `Object::inside_out`, is air inside and none).
-  /// With all_pairs every pair is decided as by between(a, b) and listed.  A visible pair
-  /// ends the question: what the other pairs would cost does not count.  On
-  /// `request.threads` threads; the answer, and the pair that is told, are the same for
-  /// any number.
+  /// Whether some face of `as` sees some face of `bs`, not counting segments inside a
+  /// convex solid that start on one of its faces and end on another: the face's own
+  /// solid, or one glued to a part of it (a room, `Object::inside_out`, is air inside and
+  /// none). So it does not matter how faces are cut. With all_pairs every pair is decided
+  /// as by between(a, b) and listed.  A visible pair ends the question: what the other
+  /// pairs would cost does not count.  On `request.threads` threads; the answer, and the
+  /// pair that is told, are the same for any number.
   [[nodiscard]] GroupAnswer between(std::span<const int> as, std::span<const int> bs,
                                     bool all_pairs,
                                     const VisibilityRequest& request = {}) const;

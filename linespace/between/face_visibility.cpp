@@ -8,7 +8,9 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <span>
 
+#include "linespace/between/glued_solids.h"
 #include "linespace/between/occluder_source.h"
 #include "linespace/between/polygon_visibility.h"
 #include "linespace/between/seams.h"
@@ -67,16 +69,6 @@ std::vector<Polygon> scaled(std::vector<Polygon> polygons, int exponent) {
   }
   return polygons;
 }
-
-bool in_one_plane(const Scene& scene, int a, int b) {
-  const auto plane = plane_corners(scene, a);
-  return std::ranges::all_of(scene.face_points(b), [&](int p) {
-    return orient3d(plane[0], plane[1], plane[2], scene.point(p)) == Sign::Zero;
-  });
-}
-
-// What is behind all of its faces is material.
-bool is_convex_solid(const Object& object) { return object.convex && !object.inside_out; }
 
 /// What a pair may cost in one pass.
 struct Effort {
@@ -138,56 +130,31 @@ struct FaceVisibility::Impl {
     FacePairAnswer pair;
     bool out_of_effort = false;
   };
-  PairDecision decide_pair(int a, int b, std::vector<int>& recent, const Effort& effort,
+  /// `blockers` block although they lie in the plane of a or b.  `recent`: what was found
+  /// for the last target of the same source is tried first.
+  PairDecision decide_pair(int a, int b, std::span<const int> blockers,
+                           std::vector<int>& recent, const Effort& effort,
                            const VisibilityRequest& request,
                            const std::function<bool()>& stop) const;
-  [[nodiscard]] bool behind_solid(int a, int b) const;
-  [[nodiscard]] std::vector<int> covering(int a) const;
+  [[nodiscard]] GluedSolids glued_to(int face) const;
 };
 
-// Face a is one of a convex solid whose inside b does not reach, and b is behind a's
-// plane: all segments go into the solid, and leave it through another of its faces or end
-// there.
-bool FaceVisibility::Impl::behind_solid(int a, int b) const {
-  const Object& solid = scene.objects()[scene.faces()[a].object];
-  if (!is_convex_solid(solid)) return false;
-  const auto plane = plane_corners(scene, a);
-  const bool behind = std::ranges::all_of(scene.face_points(b), [&](int p) {
-    return orient3d(plane[0], plane[1], plane[2], scene.point(p)) != Sign::Positive;
-  });
-  if (!behind) return false;
-  // A face's plane with all of b in front or in it: what is inside the solid is behind.
-  return std::ranges::any_of(solid.faces, [&](int f) {
-    const auto side = plane_corners(scene, f);
-    return std::ranges::all_of(scene.face_points(b), [&](int p) {
-      return orient3d(side[0], side[1], side[2], scene.point(p)) != Sign::Negative;
-    });
-  });
-}
-
-// Face a, and the faces of convex solids in its plane that it lies in as a whole: solids
-// glued to it.
-std::vector<int> FaceVisibility::Impl::covering(int a) const {
+GluedSolids FaceVisibility::Impl::glued_to(int face) const {
   hear_stop();
-  const int faces = static_cast<int>(scene.faces().size());
-  std::vector<int> found{a};
   // The set begins with the faces, in their order.
-  for (const int face : set.meeting(box_of(set[a]))) {
-    if (face == a || face >= faces) continue;
-    if (!is_convex_solid(scene.objects()[scene.faces()[face].object])) continue;
-    if (!in_one_plane(scene, a, face)) continue;
-    const bool holds_all = std::ranges::all_of(scene.face_points(a), [&](int p) {
-      return locate_in_plane(scene, face, scene.point(p)) != PointInFace::Outside;
+  return GluedSolids(scene, face, [this](int f) {
+    std::vector<int> near = set.meeting(box_of(set[f]));
+    std::erase_if(near, [this](int piece) {
+      return piece >= static_cast<int>(scene.faces().size());
     });
-    if (holds_all) found.push_back(face);
-  }
-  return found;
+    return near;
+  });
 }
 
-// `recent`: what was found for the last target of the same source is tried first.
 FaceVisibility::Impl::PairDecision FaceVisibility::Impl::decide_pair(
-    int a, int b, std::vector<int>& recent, const Effort& effort,
-    const VisibilityRequest& request, const std::function<bool()>& stop) const {
+    int a, int b, std::span<const int> blockers, std::vector<int>& recent,
+    const Effort& effort, const VisibilityRequest& request,
+    const std::function<bool()>& stop) const {
   constexpr std::size_t kRemembered = 64;
   PairDecision result{{a, b, {}, {}}};
   FacePairAnswer& pair = result.pair;
@@ -195,8 +162,10 @@ FaceVisibility::Impl::PairDecision FaceVisibility::Impl::decide_pair(
     pair.answer.verdict = Verdict::Hidden;
     return result;
   }
-  OccluderSource source(set, OccluderSource::Numbers::AsFound,
-                        [&](int piece) { return is_left_out(face_of[piece], a, b); });
+  OccluderSource source(set, OccluderSource::Numbers::AsFound, [&](int piece) {
+    const int face = face_of[piece];
+    return is_left_out(face, a, b) && std::ranges::find(blockers, face) == blockers.end();
+  });
   VisibilityRequest terms = request;
   terms.samples = effort.samples;
   terms.samples_only = effort.samples_only;
@@ -240,7 +209,7 @@ FacePairAnswer FaceVisibility::between(int a, int b,
   std::vector<int> recent;
   const Effort all{request.samples, request.samples_only,
                    std::numeric_limits<std::int64_t>::max()};
-  return impl_->decide_pair(a, b, recent, all, request, stop_of(request)).pair;
+  return impl_->decide_pair(a, b, {}, recent, all, request, stop_of(request)).pair;
 }
 
 namespace {
@@ -409,22 +378,29 @@ GroupAnswer FaceVisibility::between(std::span<const int> as, std::span<const int
                                     const VisibilityRequest& request) const {
   for (const int a : as) impl_->check(a);
   for (const int b : bs) impl_->check(b);
-  const auto decide_pair = [this](auto&&... terms) {
-    return impl_->decide_pair(std::forward<decltype(terms)>(terms)...);
-  };
-  std::map<int, std::vector<int>> covering;
+  std::map<int, GluedSolids> glued;
   for (const auto& faces : {as, bs}) {
     for (const int face : faces) {
-      if (all_pairs || covering.contains(face)) continue;
-      covering[face] = impl_->covering(face);
+      if (all_pairs || glued.contains(face)) continue;
+      glued.emplace(face, impl_->glued_to(face));
     }
   }
-  const auto starts_inside = [&](int a, int b) {
-    return std::ranges::any_of(covering.at(a),
-                               [&](int face) { return impl_->behind_solid(face, b); });
+  const auto decide_pair = [&](int a, int b, auto&&... terms) {
+    if (all_pairs) return impl_->decide_pair(a, b, {}, terms...);
+    // A segment has to miss one of the sets.
+    const auto sets = GluedSolids::blockers(glued.at(a), glued.at(b));
+    auto found = impl_->decide_pair(a, b, sets[0], terms...);
+    if (sets.size() == 1 || found.pair.answer.verdict == Verdict::Visible) return found;
+    auto other = impl_->decide_pair(a, b, sets[1], terms...);
+    other.pair.answer.cost += found.pair.answer.cost;
+    other.out_of_effort |= found.out_of_effort;
+    const bool keeps_open = found.pair.answer.verdict == Verdict::Undecided &&
+                            other.pair.answer.verdict == Verdict::Hidden;
+    if (keeps_open) std::swap(found.pair, other.pair);
+    return other;
   };
   const auto is_hidden = [&](int a, int b) {
-    return starts_inside(a, b) || starts_inside(b, a);
+    return glued.at(a).hide(b) || glued.at(b).hide(a);
   };
   return GroupQuestion(as, bs, all_pairs, request, decide_pair, is_hidden).run();
 }

@@ -19,16 +19,21 @@ void run_reader(const std::string& bytes) {
   }
 }
 
-void run_step(const std::string& bytes) {
+// The look at a file before assimp gets it.
+template <auto check>
+void run_check(const std::string& bytes) {
   try {
-    internal::check_step("fuzz", bytes, test::Unhurried());
+    check("fuzz", bytes, test::Unhurried());
   } catch (const InvalidInput&) {
   }
 }
 
 constexpr std::array kFunctions{
 #ifdef SIGHTLINE_FUZZ_VIEWERS
+    Function{"aspects", run_aspects},
     Function{"look", run_look},
+    Function{"path", run_path},
+    Function{"points", run_points},
     Function{"portals", run_portals},
     Function{"skeleton", run_skeleton},
     Function{"transversals", run_transversals},
@@ -39,7 +44,8 @@ constexpr std::array kFunctions{
     Function{"off", run_reader<internal::read_off>},
     Function{"ply", run_reader<internal::read_ply>},
     Function{"stl", run_reader<internal::read_stl>},
-    Function{"step", run_step}};
+    Function{"collada", run_check<internal::check_collada>},
+    Function{"step", run_check<internal::check_step>}};
 
 }  // namespace
 

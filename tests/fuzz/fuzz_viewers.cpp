@@ -3,6 +3,8 @@
 #include "linespace/files/mesh_io.h"
 #include "tests/support/unhurried.h"
 #include "viewers/builtin_scene.h"
+#include "viewers/queries/shadow_questions.h"
+#include "viewers/queries/viewpoint_answer.h"
 #include "viewers/questions.h"
 #include "viewers/skeleton_file.h"
 
@@ -17,6 +19,12 @@ void refusing(const Read& read) {
     read();
   } catch (const InvalidInput&) {
   }
+}
+
+const Scene& room() {
+  static const Scene scene(
+      internal::read_obj("room.obj", viewers::builtin_scene(), test::Unhurried()));
+  return scene;
 }
 
 }  // namespace
@@ -44,14 +52,27 @@ void run_look(const std::string& bytes) {
   refusing([&] { (void)viewers::view_questions(JsonInput("fuzz", bytes)); });
 }
 
+void run_path(const std::string& bytes) {
+  refusing([&] { (void)viewers::path_question(JsonInput("fuzz", bytes)); });
+}
+
+void run_points(const std::string& bytes) {
+  const std::string name = bytes.starts_with('{') ? "fuzz.json" : "fuzz.txt";
+  refusing([&] { (void)viewers::shadow_questions(room(), name, bytes); });
+}
+
+void run_aspects(const std::string& bytes) {
+  refusing([&] {
+    (void)viewers::saved_aspects(JsonInput("fuzz", bytes), Projection::Perspective);
+  });
+}
+
 void run_skeleton(const std::string& bytes) {
-  static const Scene room(
-      internal::read_obj("room.obj", viewers::builtin_scene(), test::Unhurried()));
-  static const std::string fingerprint = viewers::fingerprint(room);
+  static const std::string fingerprint = viewers::fingerprint(room());
   refusing([&] {
     viewers::StoredSkeleton stored = viewers::parse_skeleton_json("fuzz", bytes);
     stored.fingerprint = fingerprint;
-    viewers::check_fits(stored, room);
+    viewers::check_fits(stored, room());
   });
 }
 

@@ -3,10 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "linespace/visibility_cover.h"
 #include "tests/support/add_box.h"
 #include "tests/support/generators.h"
+#include "tests/support/invariant_scenes.h"
 
 namespace sightline::testing {
 namespace {
@@ -74,6 +76,93 @@ TEST(FaceVisibility, GluedBoxesDoNotSeeThroughEachOther) {
   EXPECT_EQ(between(in_row({{1, 0, 0}, {2, 1, 0.5}}), "box0", "box2"), Verdict::Visible);
   EXPECT_EQ(between(in_row({{1 + 0x1p-30, 0, 0}, {2, 1, 1}}), "box0", "box1"),
             Verdict::Visible);
+}
+
+// A quad given by its corners, as an object.
+void add_quad(PolygonSoup& soup, const std::string& name, const std::vector<Point>& at) {
+  std::vector<int> quad;
+  for (const Point& p : at) {
+    quad.push_back(static_cast<int>(soup.vertices.size()));
+    soup.vertices.push_back(p);
+  }
+  soup.groups.push_back({name, {static_cast<int>(soup.polygons.size())}});
+  soup.polygons.push_back(quad);
+}
+
+// A sheet of which a part only lies on a box sees what touches another side of the box by
+// its other part alone.
+TEST(FaceVisibility, PartsGluedToABoxDoNotSeeThroughIt) {
+  const auto verdict = [](double from, bool with_lid, double top) {
+    PolygonSoup soup;
+    add_box(soup, "box", {0, 0, 0}, {4, 4, 4});
+    // Below the box, from x = `from` on; a wall against its side x = 0, up to `top`; and
+    // a lid around all else that the wall shows.
+    add_quad(soup, "sheet", {{from, 1, 0}, {3, 1, 0}, {3, 3, 0}, {from, 3, 0}});
+    add_quad(soup, "wall", {{0, 1, -top}, {0, 1, 3}, {0, 3, 3}, {0, 3, -top}});
+    if (with_lid) {
+      add_quad(soup, "lid", {{-9, -9, -0.5}, {9, -9, -0.5}, {9, 9, -0.5}, {-9, 9, -0.5}});
+      add_quad(soup, "skirt",
+               {{0.5, -9, -0.5}, {0.5, 9, -0.5}, {0.5, 9, 0}, {0.5, -9, 0}});
+    }
+    return between(Scene(soup), "sheet", "wall");
+  };
+  // Glued as a whole; then reaching past the wall, of which it sees the outer side.
+  EXPECT_EQ(verdict(1, false, 0), Verdict::Hidden);
+  EXPECT_EQ(verdict(-1, false, 0), Verdict::Visible);
+  // A wall that goes on below the sheet's plane is seen there, unless the skirt hides it.
+  EXPECT_EQ(verdict(1, false, 1), Verdict::Visible);
+  EXPECT_EQ(verdict(1, true, 0.25), Verdict::Hidden);
+  EXPECT_EQ(verdict(1, true, 1), Verdict::Hidden);
+}
+
+// Sheet and wall cross, or the sheet ends at the wall, between four quarters of space:
+// they see each other as long as one of the quarters that both reach into is open.
+TEST(FaceVisibility, SheetAndWallMeetBetweenBoxes) {
+  const std::array<AlignedBox, 4> quarters{{{{0, 0, 0}, {4, 4, 4}},
+                                            {{-4, 0, 0}, {0, 4, 4}},
+                                            {{-4, 0, -4}, {0, 4, 0}},
+                                            {{0, 0, -4}, {4, 4, 0}}}};
+  for (int filled = 0; filled < 16; ++filled) {
+    std::vector<AlignedBox> boxes;
+    for (int i = 0; i < 4; ++i) {
+      if (filled >> i & 1) boxes.push_back(quarters[i]);
+    }
+    for (const double end : {3.0, 0.0}) {
+      PolygonSoup soup = boxes_soup(boxes);
+      add_quad(soup, "sheet", {{-3, 1, 0}, {end, 1, 0}, {end, 3, 0}, {-3, 3, 0}});
+      add_quad(soup, "wall", {{0, 1, -3}, {0, 1, 3}, {0, 3, 3}, {0, 3, -3}});
+      const int reached = end > 0 ? 0b1111 : 0b0110;
+      EXPECT_EQ(between(Scene(soup), "sheet", "wall"),
+                (filled & reached) == reached ? Verdict::Hidden : Verdict::Visible)
+          << filled << ' ' << end;
+    }
+  }
+}
+
+TEST(FaceVisibility, CutsOfFacesChangeNothing) {
+  int visible = 0, hidden = 0;
+  for (const Crowd crowd : {Crowd::Touching, Crowd::RepeatedFaces, Crowd::Overlapping}) {
+    for (std::uint64_t seed = 230; seed < 260; ++seed) {
+      const PolygonSoup soup = crowded_scene(crowd, seed);
+      const Scene scene(soup);
+      std::vector<Scene> cut;
+      for (const Variant& v : variants_of(soup, seed)) {
+        if (v.name == "facets") cut.emplace_back(v.soup);
+      }
+      ASSERT_EQ(cut.size(), 1U);
+      for (const PolygonSoup::Group& a : soup.groups) {
+        for (const PolygonSoup::Group& b : soup.groups) {
+          if (&b <= &a) continue;
+          const Verdict verdict = between(scene, a.name, b.name);
+          ++(verdict == Verdict::Visible ? visible : hidden);
+          EXPECT_EQ(between(cut.front(), a.name, b.name), verdict)
+              << name(crowd) << ' ' << seed << ": " << a.name << ' ' << b.name;
+        }
+      }
+    }
+  }
+  EXPECT_GT(visible, 500);
+  EXPECT_GT(hidden, 50);
 }
 
 // A room is a box turned inside out: its inside is air, and its walls see each other and

@@ -34,6 +34,7 @@ import sys
 import tempfile
 import time
 import xml.etree.ElementTree
+import zipfile
 import zlib
 
 PORTALS = {"portals": [[[0, 0, z], [1, 0, z], [1, 2, z], [0, 2, z]] for z in range(6)]}
@@ -48,6 +49,10 @@ QUESTION = {
     ]
     * 200
 }
+CUBE = "".join(f"v {i & 1} {i >> 1 & 1} {i >> 2}\n" for i in range(8)) + (
+    "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n"
+)
+SENSORS = "".join(f"{i},{i % 4},{2 * i},0,1,0\n" for i in range(1, 20))
 # In a folder that has the inputs; outputs go below out/.
 COMMANDS = [
     "info room.obj --json out/a.json --vtk out/vtk",
@@ -62,6 +67,16 @@ COMMANDS = [
     "transversals segments.json --json out/a.json --vtk out/vtk --list",
     "visible question.json --json out/a.json",
     "visible room.obj lamp_shade shelf --json out/a.json --vtk out/vtk",
+    "shadows cornell.obj --light light --at sensors.txt --structure --csv out/t.csv --json out/a.json",
+    "shadows cornell.obj --light light --receivers floor --list --csv out/t.csv --vtk out/vtk "
+    "--json out/a.json",
+    "shadows cornell.obj --light light --png out/p.png --eye 28,27,-60 --towards 28,27,0 "
+    "--up 0,1,0 --size 60x60",
+    "formfactors cornell.obj --lines 20000 --csv out/t.csv --npz out/f.npz --json out/a.json",
+    "formfactors cornell.obj --at sensors.txt --accuracy 1e-4 --csv out/t.csv",
+    "aspects cube.obj --projection perspective --list --json out/a.json",
+    "aspects cornell.obj --projection perspective --method sampled --samples 60 --json -",
+    "viewpoints cube.obj --projection orthographic --best 2 --json out/a.json",
     "view room.obj --size 500,300 --png out/p.png",
     "view saved.json --size 300,200 --png out/p.png",
     "analyse cornell.obj -o out/report",
@@ -93,6 +108,9 @@ def why_not_whole(path):
                 return "is cut off"
         elif path.suffix == ".png":
             return why_no_png(data)
+        elif path.suffix == ".npz":
+            with zipfile.ZipFile(path) as file:
+                return file.testzip()
         elif path.suffix == ".html":
             if not data.rstrip().endswith(b"</html>"):
                 return "is cut off"
@@ -101,7 +119,7 @@ def why_not_whole(path):
                 return "is cut off"
         elif path.suffix != ".obj":
             return "is of a kind that nobody checks"
-    except (ValueError, xml.etree.ElementTree.ParseError) as error:
+    except (ValueError, zipfile.BadZipFile, xml.etree.ElementTree.ParseError) as error:
         return str(error)
     return None
 
@@ -131,6 +149,8 @@ class Faults:
         self.counts = {}
         for name in ["room.obj", "cornell.obj"]:
             shutil.copy(pathlib.Path(scenes) / name, self.folder)
+        (self.folder / "cube.obj").write_text(CUBE)
+        (self.folder / "sensors.txt").write_text(SENSORS)
         for name, value in [("portals", PORTALS), ("segments", SEGMENTS), ("question", QUESTION)]:
             (self.folder / f"{name}.json").write_text(json.dumps(value))
         self.expect_answer("skeleton cornell.obj -o saved.json")

@@ -102,17 +102,22 @@ std::vector<ShadowQuestion> from_text(const std::string& file, const std::string
 
 }  // namespace
 
-std::vector<ShadowQuestion> shadow_questions(const Scene& scene,
-                                             const std::string& file) {
-  std::string extension = std::filesystem::path(file).extension().string();
+std::vector<ShadowQuestion> shadow_questions(const Scene& scene, const std::string& name,
+                                             const std::string& bytes) {
+  std::string extension = std::filesystem::path(name).extension().string();
   std::ranges::transform(extension, extension.begin(),
                          [](unsigned char c) { return std::tolower(c); });
-  std::vector<ShadowQuestion> questions =
-      extension == ".json"
-          ? from_json(scene, JsonInput(file))
-          : from_text(file, internal::read_whole(file, JsonInput::kLargestFile));
-  if (questions.empty()) throw InvalidInput(file + ": no points");
+  std::vector<ShadowQuestion> questions = extension == ".json"
+                                              ? from_json(scene, JsonInput(name, bytes))
+                                              : from_text(name, bytes);
+  if (questions.empty()) throw InvalidInput(name + ": no points");
   return questions;
+}
+
+std::vector<ShadowQuestion> shadow_questions(const Scene& scene,
+                                             const std::string& file) {
+  return shadow_questions(scene, internal::told_name(file),
+                          internal::read_whole(file, JsonInput::kLargestFile));
 }
 
 }  // namespace sightline::viewers

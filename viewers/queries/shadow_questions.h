@@ -25,5 +25,9 @@ struct ShadowQuestion {
 /// Throws InvalidInput that names the element.
 [[nodiscard]] std::vector<ShadowQuestion> shadow_questions(const Scene& scene,
                                                            const std::string& file);
+/// The same of a file's bytes; its name says by the extension how to read them.
+[[nodiscard]] std::vector<ShadowQuestion> shadow_questions(const Scene& scene,
+                                                           const std::string& name,
+                                                           const std::string& bytes);
 
 }  // namespace sightline::viewers
